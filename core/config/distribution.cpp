@@ -43,6 +43,11 @@ std::optional<Node> written_out(const Node& node) {
 
 }  // namespace
 
+bool is_distribution(const Node& node) {
+  return node.is(Node::Kind::table) && node.members.size() == 1 &&
+         std::ranges::find(kinds, node.members.front().key) != kinds.end();
+}
+
 std::optional<Prior> read_prior(Report& report, const Node& node, std::string_view key,
                                 const Option& option) {
   if (const auto table = written_out(node)) return read_prior(report, *table, key, option);

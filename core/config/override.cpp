@@ -9,6 +9,7 @@
 #include "core/base/check.hpp"
 #include "core/config/load.hpp"
 #include "core/config/nearest.hpp"
+#include "core/config/quantity.hpp"
 
 namespace drift::config {
 namespace {
@@ -109,10 +110,29 @@ Node* list_of(Node& root, const std::string& key) {
   return at;
 }
 
+void lay_over(Node& into, Node from) {
+  const auto is_section = [](const Node& n) {
+    return n.is(Node::Kind::table) && !is_distribution(n);
+  };
+  if (!is_section(into) || !is_section(from)) {
+    into = std::move(from);
+    return;
+  }
+  for (Member& m : from.members)
+    if (Node* there = into.find(m.key))
+      lay_over(*there, std::move(m.value));
+    else
+      into.members.push_back(std::move(m));
+}
+
 }  // namespace
 
 void apply_override(Node& root, const std::string& key, std::string_view value) {
   node_of(root, key) = parse_value(value, key);
+}
+
+void apply_overlay(Node& root, const std::string& key, std::string_view value) {
+  lay_over(node_of(root, key), parse_value(value, key));
 }
 
 void apply_addition(Node& root, const std::string& key, std::string_view value) {

@@ -14,6 +14,10 @@ namespace drift::config {
 /// (config), naming `--set key`, if the way leads nowhere or the value is broken.
 void apply_override(Node& root, const std::string& key, std::string_view value);
 
+/// The same, but a table is laid over the one that is there: what it does not name stays as it is.
+/// A distribution (`{ normal = [...] }`) is one value and takes the place of another one.
+void apply_overlay(Node& root, const std::string& key, std::string_view value);
+
 /// Adds to the end of a list that the tree has, as `--set key+=value` asks: one value, or each of a
 /// list of them. InputError (config) if there is no such list.
 void apply_addition(Node& root, const std::string& key, std::string_view value);

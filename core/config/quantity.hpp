@@ -32,6 +32,9 @@ std::optional<Quantity> read_quantity(Report& report, const Node& node, std::str
 std::optional<Prior> read_prior(Report& report, const Node& node, std::string_view key,
                                 const Option& option);
 
+/// Whether a table is such a distribution.
+bool is_distribution(const Node& node);
+
 /// "0.2 deg/h", "normal(0, 200) arcsec": a prior given in `unit`.
 std::string prior_text(const Prior& prior, const Unit& unit);
 

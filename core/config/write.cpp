@@ -48,10 +48,23 @@ bool is_section_list(const Node& value) {
          std::all_of(value.items.begin(), value.items.end(), is_section);
 }
 
+/// Whether a plain key comes behind a section or a list of them.
+bool has_plain_last(const Node& table) {
+  bool seen = false;
+  for (const Member& m : table.members) {
+    const bool section = is_section(m.value) || is_section_list(m.value);
+    if (seen && !section) return true;
+    seen = seen || section;
+  }
+  return false;
+}
+
 void write_table(const Node& table, const std::string& path, int depth, std::string& out) {
   constexpr int deepest_header = 2;  // below that tables are written in line
+  // The order of [sweep] numbers the points of a study, and no plain key can stand below a header.
+  const bool in_line = path == "sweep" && has_plain_last(table);
   const auto apart = [&](const Node& v) {
-    return depth < deepest_header && (is_section(v) || is_section_list(v));
+    return !in_line && depth < deepest_header && (is_section(v) || is_section_list(v));
   };
   for (const auto& member : table.members)
     if (!apart(member.value))

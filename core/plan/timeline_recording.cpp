@@ -18,6 +18,7 @@
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/count_positions.hpp"
 
 namespace drift {
 namespace {
@@ -39,6 +40,8 @@ class Reader {
   Timeline read() {
     timeline_.site = site_;
     timeline_.positions = static_cast<int>(plan_.positions.size());
+    check_count();
+    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     check_positions();
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     for (std::size_t row = 0; row < rec_.rows(); ++row) add(row);
@@ -57,6 +60,19 @@ class Reader {
                                     row < rec_.lines.size() ? rec_.lines[row] : row + 1, what));
   }
 
+  /// Positions that were counted must be those of the plan: else every number may be another's.
+  void check_count() {
+    const auto counted = std::ranges::find(rec_.facts, positions_counted,
+                                           &std::pair<std::string, std::string>::first);
+    if (counted == rec_.facts.end() || counted->second == fmt::format("{}", plan_.positions.size()))
+      return;
+    complain(0, fmt::format("no column tells the positions, and {} counted where the platform "
+                            "stands between turns (expected the {} of the plan). Add a column "
+                            "position, or take the plan that the recording was made with",
+                            counted->second == "1" ? "1 is" : counted->second + " are",
+                            plan_.positions.size()));
+  }
+
   /// Positions that the plan does not have, all in one message.
   void check_positions() {
     const auto& numbers = rec_.find("position")->values;
@@ -67,14 +83,6 @@ class Reader {
       if (numbers[row] >= 1.0 && numbers[row] <= planned) continue;
       if (rows++ == 0) first = row;
       if (std::ranges::find(others, numbers[row]) == others.end()) others.push_back(numbers[row]);
-    }
-    if (rec_.counted_positions > 0 && rec_.counted_positions != plan_.positions.size()) {
-      complain(0,
-               fmt::format("no column tells the positions, and {} are counted where the platform "
-                           "stands between turns (expected the {} of the plan). Add a column "
-                           "position, or take the plan that the recording was made with",
-                           rec_.counted_positions, plan_.positions.size()));
-      return;
     }
     if (rows == 0) return;
     constexpr std::size_t most = 8;

@@ -27,11 +27,10 @@ struct Recording {
   std::vector<std::size_t> lines;  ///< line (CSV) or 1-based row of each sample, for messages
   /// What the rows of a recording that was made ready stand for; not in files. Empty: one sample
   /// each, since the row before.
-  std::vector<double> begins;    ///< when the interval of each row begins [s]
-  std::vector<double> samples;   ///< samples of the plan whose noise its accelerometers average
-  std::vector<double> readings;  ///< readings whose noise its gimbal angles are a mean of
-  std::size_t counted_positions = 0;  ///< where no column has them (count_positions)
-  WeighedTexts remarks;               ///< sentences about how the file was understood
+  std::vector<double> begins;        ///< when the interval of each row begins [s]
+  std::vector<double> samples;       ///< samples of the plan whose noise its accelerometers average
+  std::vector<double> readings;      ///< readings whose noise its gimbal angles are a mean of
+  WeighedTexts remarks;              ///< sentences about how the file was understood
   std::string unmapped_temperature;  ///< the remark on what looks like one and is not mapped; or ""
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().values.size(); }

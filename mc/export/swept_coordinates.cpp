@@ -62,15 +62,22 @@ std::vector<std::pair<std::string, std::string>> together(const std::string& key
   return all;
 }
 
+/// "0.1 mg" is 100 ug, and not 100.00000000000001: a decimal stays one.
+double converted(double value, const Unit& from, const Unit& to) {
+  if (from.to_si == to.to_si) return value;
+  const std::string text = fmt::format("{:.14g}", value * (from.to_si / to.to_si));
+  double number = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 SweptCoordinate coordinate(std::string key, std::vector<std::string> words) {
   SweptCoordinate c{std::move(key), std::move(words), {}};
   for (const std::string& word : c.words) {
     const auto number = number_with_unit(word);
     if (&word == &c.words.front() && number) c.unit = number->unit;
     if (number && number->unit.same_dimension(c.unit))
-      c.numbers.push_back(number->unit.to_si == c.unit.to_si
-                              ? number->value
-                              : number->value * (number->unit.to_si / c.unit.to_si));
+      c.numbers.push_back(converted(number->value, number->unit, c.unit));
   }
   if (c.numbers.size() != c.words.size()) c.numbers.clear();
   return c;

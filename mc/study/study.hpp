@@ -80,9 +80,9 @@ Study read_study_text(std::string_view text, const std::string& path,
 /// Reads a study from a tree without trying its sweep; `text` is left empty. The same errors.
 Study read_study_tree(const config::Node& root, const std::string& path);
 
-/// Puts one value of a sweep in its place. With "truth.coupling", what only other couplings use
-/// goes: [truth.servo], [truth.loop] and truth.parameters.lambda. InputError (config) as
-/// apply_override.
+/// Puts one value of a sweep in its place; of a table its keys, what else is in the section stays
+/// (apply_overlay). Where it is of truth.coupling, what only other couplings use goes:
+/// [truth.servo], [truth.loop] and truth.parameters.lambda. InputError (config) as apply_override.
 void apply_sweep_value(config::Node& root, const std::string& key, const std::string& value);
 
 }  // namespace drift::mc

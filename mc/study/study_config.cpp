@@ -19,6 +19,7 @@
 #include "mc/study/declared_keys.hpp"
 #include "mc/study/published_config.hpp"
 #include "mc/study/study.hpp"
+#include "mc/study/sweep_config.hpp"
 
 namespace drift::mc {
 namespace {
@@ -78,49 +79,6 @@ void check_stop(Report& report, const Node& root, const Study& study) {
             quantity, fmt::join(estimated, ", "),
             config::suggestion(std::string_view(quantity).substr(rmse.size()), estimated,
                                "Choose one of them, or add its term to a filter")));
-}
-
-std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
-  constexpr std::size_t most_values = 10000;
-  constexpr double most_points = 1e6;
-  std::vector<SweepAxis> axes;
-  if (sweep == nullptr) return axes;
-  double points = 1.0;
-  Section section(report, sweep, sweep->at, "sweep");
-  for (const auto& member : sweep->members) {
-    const Node& values = member.value;
-    if (!values.is(Node::Kind::array) || values.items.empty() ||
-        values.items.size() > most_values) {
-      report.error(
-          values.at,
-          fmt::format("'sweep.\"{}\"' is {} (expected a list of 1 to {} values). Write \"{}\" = "
-                      "[a, b, c], the dotted key in quotes",
-                      member.key, describe(values), most_values, member.key));
-      continue;
-    }
-    SweepAxis axis{member.key, {}};
-    for (const auto& value : values.items) {
-      std::string text = to_toml(value);
-      if (std::ranges::find(axis.values, text) != axis.values.end())
-        report.error(
-            value.at,
-            fmt::format(
-                "'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
-                "point). Remove one",
-                member.key, text));
-      else
-        axis.values.push_back(std::move(text));
-    }
-    points *= static_cast<double>(axis.values.size());
-    report.given(fmt::format("sweep.\"{}\"", member.key), to_toml(values), member.at);
-    axes.push_back(std::move(axis));
-  }
-  if (points > most_points)
-    report.error(sweep->at,
-                 fmt::format("[sweep] makes {:.0f} study points (expected at most {:.0f}). "
-                             "Shorten a list",
-                             points, most_points));
-  return axes;
 }
 
 /// The number of runs, the seed and the like are the study's: points share their runs. So are its
@@ -217,8 +175,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   read_terms_into_library(top, plan.kind);
   const Node* sweep = top.take("sweep");
   // A blind study has truths of several couplings too.
-  const bool swept =
-      (sweep != nullptr && sweep->find("truth.coupling") != nullptr) || top.has("blind");
+  const bool swept = sweeps(sweep, "truth.coupling") || top.has("blind");
   Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
@@ -255,20 +212,6 @@ std::vector<config::DeclaredKey> declared_keys(const Node& root) {
     // What came after it is declared in another reading, of a tree that it is content with.
   }
   return report.declared();
-}
-
-void apply_sweep_value(Node& root, const std::string& key, const std::string& value) {
-  apply_override(root, key, value);
-  if (key != "truth.coupling") return;
-  Node& truth = *root.find("truth");
-  const std::string coupling = truth.find("coupling")->text;
-  const auto drop = [](Node& table, std::string_view name) {
-    std::erase_if(table.members, [&](const config::Member& m) { return m.key == name; });
-  };
-  if (coupling != "servo") drop(truth, "servo");
-  if (coupling != "compensated") drop(truth, "loop");
-  if (Node* parameters = truth.find("parameters"); parameters && coupling != "lambda")
-    drop(*parameters, "lambda");
 }
 
 Study read_study(const std::string& path, const Overrides& overrides) {

@@ -126,9 +126,12 @@ NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
   out.log_price =
       NoisePrior::log_not_as_declared() + log_price(m, declared, rows.measured().acc_sigma);
   out.covariance = m.covariance;
-  for (const Active& a : m.active) {
-    out.driven = out.driven || (!a.component->white() && !a.component->in(declared));
-    out.components.push_back(a.component);
+  for (std::size_t k = 0; k < m.active.size(); ++k) {
+    const NoiseComponent& c = *m.active[k].component;
+    const NoiseFinding& f = out.findings[k];
+    out.driven =
+        out.driven || (!c.white() && (!c.in(declared) || (f.significant && f.factor > 1.0)));
+    out.components.push_back(&c);
   }
   return out;
 }

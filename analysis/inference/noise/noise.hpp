@@ -16,7 +16,9 @@ struct NoiseEstimate {
   NoiseModel model;
   std::vector<NoiseFinding> findings;
   double log_likelihood2 = 0.0;  ///< twice the restricted log likelihood, without constants
-  bool driven = false;           ///< a component besides white noise was needed
+  /// A component besides white noise was needed that is not declared, or more of it than is: it
+  /// may have been an effect.
+  bool driven = false;
   /// What must be added to half of that for the log evidence of this noise: its sigmas and time
   /// constants are known to their usual sizes only (Laplace's method). With the prior of which
   /// components there are (NoisePrior).

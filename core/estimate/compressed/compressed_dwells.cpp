@@ -82,7 +82,11 @@ CompressedTest::CompressedTest(const Timeline& timeline, const Readout& readout,
   const auto count = static_cast<Eigen::Index>(timeline_.intervals.size());
   const Mat3X nothing = Mat3X::Constant(3, count, std::numeric_limits<double>::quiet_NaN());
   measured_ = {nothing, nothing};
-  if (any()) place_nodes(timeline_, R_lp);
+  if (!any()) return;
+  place_nodes(timeline_, R_lp);
+  for (std::size_t i = 0; i < of_interval_.size(); ++i)
+    if (of_interval_[i] >= 0)
+      read_at_nodes(stretches_[static_cast<std::size_t>(of_interval_[i])], timeline_.intervals[i]);
 }
 
 void CompressedTest::take_alone(std::size_t i) {
@@ -96,16 +100,21 @@ void CompressedTest::take_together(std::size_t first, std::size_t end, std::size
   Interval joined = whole_.intervals[first];
   joined.t1 = whole_.intervals[end - 1].t1;
   joined.substeps = substeps;
-  Stretch stretch{first, end, legendre_fit(polynomials, joined.node_count()), {}, {}, {}};
-  stretch.readings.integral = 0.5 * joined.length() * legendre_integral(stretch.fit);
-  std::vector<std::size_t> every(end - first);
-  std::iota(every.begin(), every.end(), 0);
-  if (readout_.accelerometers) stretch.means = how_to_read(stretch, Reading::mean, every);
-  if (readout_.gimbals) stretch.ends = how_to_read(stretch, Reading::at_end, every);
   timeline_.intervals.push_back(joined);
   first_.push_back(first);
   of_interval_.push_back(static_cast<int>(stretches_.size()));
-  stretches_.push_back(std::move(stretch));
+  stretches_.push_back({first, end, polynomials, {}, {}, {}, {}});
+}
+
+/// What hangs on the nodes of a stretch, once they are placed: place_nodes may ask for more of
+/// them.
+void CompressedTest::read_at_nodes(Stretch& stretch, const Interval& interval) {
+  stretch.fit = legendre_fit(stretch.polynomials, interval.node_count());
+  stretch.readings.integral = 0.5 * interval.length() * legendre_integral(stretch.fit);
+  std::vector<std::size_t> every(stretch.end - stretch.first);
+  std::iota(every.begin(), every.end(), 0);
+  if (readout_.accelerometers) stretch.means = how_to_read(stretch, Reading::mean, every);
+  if (readout_.gimbals) stretch.ends = how_to_read(stretch, Reading::at_end, every);
 }
 
 AxisReading CompressedTest::how_to_read(const Stretch& stretch, Reading what,

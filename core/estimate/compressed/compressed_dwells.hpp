@@ -104,12 +104,14 @@ class CompressedTest {
  private:
   struct Stretch {
     std::size_t first, end;  ///< intervals of the whole timeline
+    std::size_t polynomials;
     MatX fit;
     AxisReading means, ends;  ///< where nothing is missing
     StretchReadings readings;
   };
   void take_alone(std::size_t i);
   void take_together(std::size_t first, std::size_t end, std::size_t polynomials, int substeps);
+  void read_at_nodes(Stretch& stretch, const Interval& interval);
   AxisReading how_to_read(const Stretch& stretch, Reading what,
                           std::vector<std::size_t> samples) const;
   void read_channel(const Stretch& stretch, Reading what, const Mat3X& measured,

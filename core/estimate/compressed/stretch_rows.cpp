@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "core/base/check.hpp"
 #include "core/estimate/transition.hpp"
 
 namespace drift {
@@ -15,6 +16,7 @@ StretchRows::StretchRows(const Layout& layout)
 void StretchRows::propagate(const StretchReadings& stretch, const Interval& interval,
                             const NodeJacobian* jacobian, IntervalSensitivity& out) {
   const std::size_t nodes = interval.node_count();
+  DRIFT_DEMAND(stretch.integral.cols() == static_cast<Eigen::Index>(nodes));
   out.begin(jacobian, nodes);
   const double h = interval.length() / (2.0 * interval.substeps);
   out.Phi[0].setIdentity();
@@ -96,6 +98,7 @@ const StretchRows::Rows& StretchRows::combined(const StretchChannel& channel, Ro
     const StretchChannel::Axis& axis = channel.axes[a];
     const Eigen::Index count = axis.rows();
     if (count == 0) continue;
+    DRIFT_DEMAND(axis.how->projection.of_nodes.cols() == at_nodes_[a].rows());
     auto rows = out.middleRows(done, count);
     rows.noalias() = axis.how->projection.of_nodes * at_nodes_[a];
     rows.col(states) = axis.measured - rows.col(states);

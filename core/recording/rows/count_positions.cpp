@@ -11,6 +11,7 @@
 
 #include "core/recording/gimbal_chain.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift {
 namespace {
@@ -21,23 +22,31 @@ struct Rows {
   std::size_t count() const { return last - first + 1; }
 };
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// What moves from row to row.
+/// What moves between rows.
 class Motion {
  public:
   explicit Motion(const Recording& r)
       : r_(r),
         time_(r.find("time")->values),
         phase_(r.find("phase")),
-        heading_(r.find("case_heading")) {}
+        heading_(r.find("case_heading")) {
+    std::vector<double> turns, steps;
+    for (std::size_t k = 1; k < r.rows(); ++k) {
+      steps.push_back(time_[k] - time_[k - 1]);
+      if (const auto turn = turned(k - 1, k); turn && !commanded(k)) turns.push_back(*turn);
+    }
+    if (turns.empty()) return;
+    usual_turn_ = stats::median(turns);
+    usual_step_ = stats::median(steps);
+  }
 
   bool shown() const {
     for (std::size_t k = 0; k < r_.rows(); ++k)
-      if (measured(r_, gimbal_channels, k) || measured(r_, accelerometer_channels, k)) return true;
+      if (reads(k)) return true;
     return false;
+  }
+  bool reads(std::size_t row) const {
+    return measured(r_, gimbal_channels, row) || measured(r_, accelerometer_channels, row);
   }
   /// Whether the interval of a row is one of a slew, as far as commands and phases tell.
   bool commanded(std::size_t row) const {
@@ -51,47 +60,67 @@ class Motion {
     const double turn = heading_->values[to] - heading_->values[from];
     return std::isfinite(turn) ? std::abs(std::remainder(turn, 2.0 * std::numbers::pi)) : 0.0;
   }
-  /// Whether platform or case are elsewhere in a row than in an earlier one. Accelerometers, which
-  /// read the mean over a row, are asked where gimbals are not there.
-  bool apart(std::size_t from, std::size_t to) const {
-    double turn = of_case(from, to);
-    const auto both = [&](const ChannelTriple& channels, auto&& angle) {
-      const auto a = measured(r_, channels, from), b = measured(r_, channels, to);
-      if (a && b) turn = std::max(turn, angle(*a, *b));
-      return a && b;
-    };
-    if (!both(gimbal_channels, [](const Vec3& a, const Vec3& b) {
-          return rotation_vector(gimbal_chain(a).transpose() * gimbal_chain(b)).norm();
-        }))
-      both(accelerometer_channels, angle_between);
-    return turn > CountLimits::turn + CountLimits::drift * (time_[to] - time_[from]);
+  /// By what the platform turns against the case, or Up on it where a gimbal is not read [rad].
+  std::optional<double> turned(std::size_t from, std::size_t to) const {
+    const auto angles = [&](std::size_t row) { return measured(r_, gimbal_channels, row); };
+    const auto force = [&](std::size_t row) { return measured(r_, accelerometer_channels, row); };
+    if (const auto a = angles(from), b = angles(to); a && b)
+      return rotation_vector(gimbal_chain(*a).transpose() * gimbal_chain(*b)).norm();
+    if (const auto a = force(from), b = force(to); a && b)
+      return std::atan2(a->cross(*b).norm(), a->dot(*b));
+    return std::nullopt;
+  }
+  /// Whether platform or case do not stand from a row to a later one.
+  bool moves(std::size_t from, std::size_t to) const {
+    const double steps = std::max(1.0, (time_[to] - time_[from]) / usual_step_);
+    const double still = CountLimits::still + CountLimits::usual * usual_turn_ * steps;
+    return std::max(turned(from, to).value_or(0.0), of_case(from, to)) > still;
+  }
+  /// Whether they are elsewhere in a row than in an earlier one.
+  bool elsewhere(std::size_t from, std::size_t to) const {
+    const double drifted = CountLimits::drift * (time_[to] - time_[from]);
+    return std::max(turned(from, to).value_or(0.0), of_case(from, to)) >
+           CountLimits::turn + drifted;
+  }
+  /// Whether the platform turns, and not only the case below it.
+  bool of_platform(std::size_t from, std::size_t to) const {
+    const double with_case = of_case(from, to), turn = turned(from, to).value_or(0.0);
+    if (measured(r_, gimbal_channels, from) && measured(r_, gimbal_channels, to))
+      return turn > with_case + CountLimits::turn;
+    return turn > CountLimits::turn;
   }
 
  private:
   const Recording& r_;
   const std::vector<double>& time_;
   const Channel *phase_, *heading_;
+  double usual_turn_ = 0.0, usual_step_ = 1.0;  ///< from row to row [rad], [s]: of one that stands
 };
 
 /// Stretches of rows in whose intervals something is turned, in order.
 std::vector<Rows> turns_of(const Motion& motion, std::size_t rows) {
   std::vector<Rows> all;
+  std::size_t read = 0;  // the last row with readings
   for (std::size_t k = 1; k < rows; ++k) {
-    if (!motion.commanded(k) && !motion.apart(k - 1, k)) continue;
-    if (!all.empty() && all.back().last + 1 == k)
-      all.back().last = k;
-    else
-      all.push_back({k, k});
+    if (!motion.reads(k) && !motion.commanded(k)) continue;
+    if (motion.commanded(k) || motion.moves(read, k)) {
+      const std::size_t first = motion.commanded(k) ? k : read + 1;
+      if (!all.empty() && all.back().last + 1 >= first)
+        all.back().last = k;
+      else
+        all.push_back({first, k});
+    }
+    if (motion.reads(k)) read = k;
   }
   // The row after a slew stands; the mean over the one before was on the way.
   for (Rows& t : all)
     while (t.last > t.first && motion.commanded(t.last - 1) && !motion.commanded(t.last) &&
            motion.of_case(t.last - 1, t.last) < CountLimits::turn)
       --t.last;
-  // What is where it was, unbidden, was not turned: a reading that is none.
+  // What is where it was, unbidden, was not turned: a reading that is none, or a disturbance.
   std::erase_if(all, [&](const Rows& t) {
     return !motion.commanded(t.first) && !motion.commanded(t.last) &&
-           !motion.apart(t.first - 1, t.last);
+           !motion.elsewhere(t.first - 1, t.last);
   });
   return all;
 }
@@ -109,14 +138,14 @@ std::string turning_dwell(const Motion& motion, const Recording& r, const Rows& 
 }
 
 /// How a turn is made.
-enum class By { jump, command, hand };
+enum class By { command, hand };
 
 By made_by(const Motion& motion, const Rows& t) {
   for (std::size_t k = t.first; k <= t.last; ++k)
     if (motion.commanded(k)) return By::command;
-  // Caged anew from one row to the next: the interval of the second begins there.
-  if (t.count() == 1) return By::jump;
-  return motion.of_case(t.first - 1, t.last) > CountLimits::turn ? By::command : By::hand;
+  const bool case_alone = motion.of_case(t.first - 1, t.last) > CountLimits::turn &&
+                          !motion.of_platform(t.first - 1, t.last);
+  return case_alone ? By::command : By::hand;
 }
 
 /// Leaves out rows.
@@ -129,6 +158,83 @@ void remove(Recording& r, const std::vector<bool>& out) {
   without(r.lines);
 }
 
+/// What becomes of the rows.
+struct Counted {
+  std::vector<double> position, slew;
+  std::vector<bool> out, arrives;   ///< arrives: at the end of a turn by hand
+  std::vector<std::size_t> begins;  ///< lines
+  std::size_t left_out = 0;
+};
+
+std::string count(const Recording& r, const Motion& motion, Counted& c) {
+  const std::size_t rows = r.rows();
+  c = {std::vector<double>(rows, 1.0),
+       std::vector<double>(rows, 0.0),
+       std::vector<bool>(rows, false),
+       std::vector<bool>(rows, false),
+       {},
+       0};
+  std::size_t stands_from = 0;
+  const auto leave_out = [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) c.out[k] = true;
+    c.left_out += to - from;
+  };
+  const auto stand = [&](std::size_t end) {
+    c.begins.push_back(r.lines[stands_from]);
+    for (std::size_t k = stands_from; k < end; ++k)
+      c.position[k] = static_cast<double>(c.begins.size());
+  };
+  for (const Rows& t : turns_of(motion, rows)) {
+    const By by = made_by(motion, t);
+    const bool shorter = t.first - stands_from < CountLimits::fewest_rows;
+    // A log that begins while it is turned yet has no position there.
+    if (shorter && (!c.begins.empty() || by == By::command))
+      return fmt::format("from line {} on it stands for {} row{} alone", r.lines[stands_from],
+                         t.first - stands_from, t.first - stands_from == 1 ? "" : "s");
+    if (const std::string why = turning_dwell(motion, r, t, stands_from); !shorter && !why.empty())
+      return why;
+    if (shorter)
+      leave_out(stands_from, t.first);
+    else
+      stand(t.first);
+    for (std::size_t k = t.first; by == By::command && k <= t.last; ++k) {
+      c.position[k] = static_cast<double>(c.begins.size() + 1);
+      c.slew[k] = 1.0;
+    }
+    // It arrives in the last row, whose readings of the end are good. Where that is the only one,
+    // it was caged anew between two rows.
+    if (by == By::hand) leave_out(t.first, t.last);
+    c.arrives[t.last] = by == By::hand && t.count() > 1;
+    stands_from = by == By::hand ? t.last : t.last + 1;
+  }
+  if (rows - stands_from >= CountLimits::fewest_rows)
+    stand(rows);
+  else if (c.slew[stands_from == 0 ? 0 : stands_from - 1] == 1.0 || c.begins.empty())
+    return fmt::format("from line {} on it stands for {} row{} alone",
+                       r.lines[std::min(stands_from, rows - 1)], rows - stands_from,
+                       rows - stands_from == 1 ? "" : "s");
+  else
+    leave_out(stands_from, rows);
+  return "";
+}
+
+std::string remark(const Counted& c, bool commands) {
+  constexpr std::size_t most = 12;
+  const std::size_t count = c.begins.size();
+  std::vector<std::size_t> begins(
+      c.begins.begin(), c.begins.begin() + static_cast<std::ptrdiff_t>(std::min(most, count)));
+  std::string text = fmt::format(
+      "no column tells the positions: {} counted, where the platform stands between turns, from "
+      "line{} {}{} on, and taken for those of the plan, in order",
+      count == 1 ? "1 is" : fmt::format("{} are", count), count == 1 ? "" : "s",
+      fmt::join(begins, ", "), count > most ? fmt::format(" and {} more", count - most) : "");
+  if (c.left_out > 0)
+    text += fmt::format("; {} row{} in which it is turned, and by no command, {} left out",
+                        c.left_out, c.left_out == 1 ? "" : "s", c.left_out == 1 ? "is" : "are");
+  if (c.left_out > 0 && !commands) text += " (if commands turned it, record cmd_x, cmd_y, cmd_z)";
+  return text;
+}
+
 }  // namespace
 
 std::string count_positions(Recording& r) {
@@ -138,55 +244,18 @@ std::string count_positions(Recording& r) {
     return "";
   const Motion motion(r);
   if (!motion.shown()) return "neither all gimbals nor all accelerometers show when it was turned";
-  const std::vector<Rows> turns = turns_of(motion, r.rows());
-  std::vector<double> position(r.rows(), 1.0), slew(r.rows(), 0.0);
-  std::vector<bool> out(r.rows(), false);
-  std::vector<std::size_t> begins{r.lines.front()};
-  std::size_t stands_from = 0, left_out = 0;
-  const auto too_short = [&](std::size_t end) -> std::optional<std::string> {
-    if (end - stands_from >= CountLimits::fewest_rows) return std::nullopt;
-    return fmt::format("from line {} on it stands for {} row{} alone", r.lines[stands_from],
-                       end - stands_from, end - stands_from == 1 ? "" : "s");
-  };
-  for (const Rows& t : turns) {
-    if (const auto why = too_short(t.first)) return *why;
-    if (const std::string why = turning_dwell(motion, r, t, stands_from); !why.empty()) return why;
-    const By by = made_by(motion, t);
-    begins.push_back(r.lines[t.first]);
-    std::fill(position.begin() + static_cast<std::ptrdiff_t>(t.first), position.end(),
-              static_cast<double>(begins.size()));
-    stands_from = by == By::jump ? t.first : t.last + 1;
-    for (std::size_t k = t.first; k < stands_from; ++k) {
-      slew[k] = by == By::command ? 1.0 : 0.0;
-      out[k] = by == By::hand;
-      left_out += by == By::hand;
-    }
-  }
-  if (const auto why = too_short(r.rows())) return *why;
-  const bool slewed = std::ranges::find(slew, 1.0) != slew.end();
-  r.channels.push_back({"position", unit::one, std::move(position)});
-  if (slewed && r.find("phase") == nullptr)
-    r.channels.push_back({"phase", unit::one, std::move(slew)});
-  remove(r, out);
-  r.counted_positions = begins.size();
-  constexpr std::size_t most = 12;
-  const std::string more =
-      begins.size() > most ? fmt::format(" and {} more", begins.size() - most) : "";
-  const std::size_t count = begins.size();
-  begins.resize(std::min(most, count));
-  r.remarks.add(
-      Weight::doubtful,
-      fmt::format(
-          "{}: no column tells the positions. {} counted, where it stands between turns, from "
-          "line{} "
-          "{}{} on: taken for those of the plan, in order{}",
-          r.source.empty() ? "the recording" : r.source,
-          count == 1 ? "One is" : fmt::format("{} are", count), count == 1 ? "" : "s",
-          fmt::join(begins, ", "), more,
-          left_out == 0
-              ? ""
-              : fmt::format("; {} rows in which it is turned, and by no command, are left out",
-                            left_out)));
+  Counted c;
+  if (std::string why = count(r, motion, c); !why.empty()) return why;
+  const bool commands = r.find("cmd_x") != nullptr;
+  r.remarks.add(Weight::doubtful, remark(c, commands));
+  r.facts.emplace_back(positions_counted, fmt::format("{}", c.begins.size()));
+  for (Channel& channel : r.channels)
+    for (std::size_t k = 0; channel.name.starts_with("acc_") && k < r.rows(); ++k)
+      if (c.arrives[k]) channel.values[k] = nan_value;  // the mean is of the turn, too
+  r.channels.push_back({"position", unit::one, std::move(c.position)});
+  if (std::ranges::find(c.slew, 1.0) != c.slew.end() && r.find("phase") == nullptr)
+    r.channels.push_back({"phase", unit::one, std::move(c.slew)});
+  remove(r, c.out);
   return "";
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "core/base/units.hpp"
 #include "core/recording/recording.hpp"
@@ -10,22 +11,32 @@ namespace drift {
 
 /// What is a turn to another position, and what is standing in one.
 struct CountLimits {
-  /// [rad] from row to row, beside what the time between them allows: positions are 10 deg and more
-  /// apart (largest_mismatch), and readings of one second scatter by far less.
+  /// [rad] by which what turns it is elsewhere, beside what it may have drifted meanwhile:
+  /// positions are 10 deg and more apart (largest_mismatch).
   static constexpr double turn = 2.0 * detail::deg;
   /// [rad/s] that a platform which stands may turn by: twice Earth rate, half of it drift.
   static constexpr double drift = 1.5e-4;
+  /// From row to row what stands turns by no more than so many times what is usual in the log (its
+  /// median, of drift and noise: of normal noise of three angles one row in 3e7 does), and so much
+  /// [rad].
+  static constexpr double usual = 4.0, still = 0.02 * detail::deg;
   /// [rad/s] beyond which a command is a slew: four times what holds a platform level.
   static constexpr double slew = 3.0e-4;
   /// Rows that a platform stands in a position, at least; the first one may still hold a turn.
   static constexpr std::size_t fewest_rows = 4;
 };
 
+/// The fact of a recording whose positions were counted: how many.
+inline constexpr std::string_view positions_counted = "positions_counted";
+
 /// Numbers the positions of a platform's recording that has no column of them: 1, 2, 3, ... in the
-/// order in which platform or case stand between turns (gimbals and accelerometers, the heading of
-/// the case, commands). Rows in which it is turned by commands, or with its case, are slews to the
-/// position that they lead to; those in which it is turned by neither belong to none and are left
-/// out. A remark says what was counted. Where `phase` is recorded, slews are what it says.
+/// order in which platform or case stand between turns (gimbals, or else accelerometers; the
+/// heading of the case; commands). Rows in which it is turned by commands, or the case below it,
+/// are slews to the position that they lead to. Those in which it is turned by neither belong to
+/// none and are left out; of the row in which it arrives, the gimbals at its end are kept and the
+/// accelerometers' mean is not measured. So is the begin of a log that begins on the way, and its
+/// end. A remark says what was counted, and the fact positions_counted. Where `phase` is recorded,
+/// slews are what it says.
 ///
 /// Nothing is done, and what stands against it is returned, where a stretch between two turns is
 /// shorter than CountLimits::fewest_rows, where the case turns for as long as it stood, or where

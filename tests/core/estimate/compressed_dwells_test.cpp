@@ -14,11 +14,12 @@ struct Case {
   const char* plan;
   Coupling truth, filter;
   double sample;
+  double dwell = 3600.0, slew_rate = 0.5 * drift::detail::deg;
 };
 
 void PrintTo(const Case& c, std::ostream* os) {
   *os << c.plan << ", " << facts(c.truth).name << " by " << facts(c.filter).name << ", " << c.sample
-      << " s";
+      << " s of " << c.dwell << ", slewed at " << c.slew_rate / drift::detail::deg << " deg/s";
 }
 
 class Compressed : public testing::TestWithParam<Case> {
@@ -26,9 +27,11 @@ class Compressed : public testing::TestWithParam<Case> {
   void SetUp() override {
     const Case& c = GetParam();
     PlanDefaults defaults;
-    defaults.dwell = 3600.0;
+    defaults.dwell = c.dwell;
     defaults.sample = c.sample;
-    timeline = lay_out(preset_plan(c.plan, defaults).value(), test::harbin);
+    TestPlan plan = preset_plan(c.plan, defaults).value();
+    plan.slew_rate = c.slew_rate;
+    timeline = lay_out(plan, test::harbin);
     const TruthSpec truth = test::base_truth(c.truth);
     filter = test::base_filter(c.filter);
     const TruthDraw draw = draw_truth(truth, timeline.chains, 1, 0);
@@ -85,7 +88,32 @@ INSTANTIATE_TEST_SUITE_P(, Compressed,
                                          Case{"six", Coupling::eq6, Coupling::lambda, 10.0},
                                          Case{"twentyfour", Coupling::eq5, Coupling::eq6, 60.0},
                                          Case{"slew12", Coupling::eq6, Coupling::eq6, 60.0},
-                                         Case{"casespin", Coupling::eq5, Coupling::lambda, 60.0}));
+                                         Case{"casespin", Coupling::eq5, Coupling::lambda, 60.0},
+                                         // The reference turns by more than an even number of steps
+                                         // of 0.1 rad: more nodes than were first thought of.
+                                         Case{"six", Coupling::eq5, Coupling::eq5, 60.0, 12600.0},
+                                         Case{"six", Coupling::eq5, Coupling::eq6, 120.0, 14400.0},
+                                         Case{"slew12", Coupling::eq5, Coupling::eq5, 60.0, 1800.0,
+                                              0.05 * drift::detail::deg}));
+
+/// Nodes are placed where the timeline wants them, whatever a stretch thought of: of every length.
+TEST(CompressedTest, AStretchIsReadAtTheNodesItHas) {
+  const Readout readout;
+  for (double hours = 0.5; hours <= 12.0; hours += 0.5) {
+    PlanDefaults defaults;
+    defaults.dwell = 3600.0 * hours;
+    defaults.sample = 60.0;
+    const Timeline timeline = lay_out(preset_plan("six", defaults).value(), test::harbin);
+    const CompressedTest test(timeline, readout, {});
+    ASSERT_TRUE(test.any());
+    for (std::size_t i = 0; i < test.timeline().intervals.size(); ++i) {
+      if (test.readings(i) == nullptr) continue;
+      const auto nodes = static_cast<Eigen::Index>(test.timeline().intervals[i].node_count());
+      EXPECT_EQ(test.readings(i)->integral.cols(), nodes) << hours << " h";
+      EXPECT_EQ(test.complete(i, Reading::mean).projection.of_nodes.cols(), nodes) << hours << " h";
+    }
+  }
+}
 
 /// Of every term that sees no covariates: those that follow the clock, gimbal angles or the past as
 /// well as those that see attitude and command alone. Where no polynomials follow (a step within a

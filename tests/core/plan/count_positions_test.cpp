@@ -47,6 +47,29 @@ std::vector<double> values(const Recording& r, std::string_view name) {
   return c == nullptr ? std::vector<double>(r.rows(), 0.0) : c->values;
 }
 
+/// As the fact says.
+double counted(const Recording& r) {
+  for (const auto& [key, value] : r.facts)
+    if (key == positions_counted) return std::stod(value);
+  return 0.0;
+}
+
+/// Rows put in before row `at`, on the way from the one before it: gimbals as `part` of it says,
+/// the rest as it was.
+void turn_by_hand(Recording& r, std::size_t at, int rows) {
+  for (Channel& c : r.channels) {
+    const double from = c.values[at - 1], to = c.values[at];
+    for (int k = 1; k <= rows; ++k) {
+      const double part = static_cast<double>(k) / (rows + 1.0);
+      const bool turns = c.name.starts_with("gimbal_") || c.name == "case_heading";
+      c.values.insert(c.values.begin() + static_cast<std::ptrdiff_t>(at) + k - 1,
+                      c.name == "time" || turns ? from + part * (to - from) : from);
+    }
+  }
+  r.lines.resize(r.rows());
+  for (std::size_t k = 0; k < r.rows(); ++k) r.lines[k] = k + 2;
+}
+
 TEST(CountPositions, WhatWasTakenAwayComesBack) {
   for (const std::string_view preset : {"six", "twelve", "twentyfour", "apollo10", "slew12"})
     for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
@@ -58,7 +81,7 @@ TEST(CountPositions, WhatWasTakenAwayComesBack) {
         ASSERT_EQ(count_positions(r), "") << preset;
         EXPECT_EQ(values(r, "position"), values(whole, "position")) << preset;
         EXPECT_EQ(values(r, "phase"), values(whole, "phase")) << preset;
-        EXPECT_EQ(r.counted_positions, values(whole, "position").back()) << preset;
+        EXPECT_EQ(counted(r), values(whole, "position").back()) << preset;
         ASSERT_EQ(r.remarks.texts().size(), 1u);
         EXPECT_NE(r.remarks.texts()[0].find("no column tells the positions"), std::string::npos);
       }
@@ -75,32 +98,42 @@ TEST(CountPositions, AReadingThatIsNoneIsNoTurn) {
 }
 
 TEST(CountPositions, RowsInWhichItIsTurnedByHandAreLeftOut) {
+  // A logger that runs on; the case may be turned, too, and the turn may be slow against a row.
+  for (const auto& [preset, rows] : {std::pair{"six", 3}, {"twentyfour", 3}, {"six", 60}}) {
+    const Recording whole = recorded(plan_of(preset));
+    Recording r = without(whole, {"position", "phase"});
+    for (std::size_t at = whole.rows() - 20; at > 0; at -= 20) turn_by_hand(r, at, rows);
+    ASSERT_EQ(count_positions(r), "") << preset;
+    EXPECT_EQ(values(r, "position"), values(whole, "position")) << preset;
+    EXPECT_EQ(values(r, "phase"), values(whole, "phase")) << preset;
+    // Where it arrives the gimbals are read, and the mean over the row is of the turn.
+    EXPECT_EQ(values(r, "gimbal_outer"), values(whole, "gimbal_outer"));
+    EXPECT_TRUE(std::isnan(values(r, "acc_x")[20]));
+    EXPECT_EQ(values(r, "acc_x")[21], values(whole, "acc_x")[21]);
+    EXPECT_EQ(r.lines[20], 20u + static_cast<std::size_t>(rows) + 2u) << "those of the file";
+  }
+}
+
+TEST(CountPositions, ALogMayBeginOnTheWayAndBeSilentThere) {
   const Recording whole = recorded(plan_of("six"));
   Recording r = without(whole, {"position", "phase"});
-  // Between the first two positions three rows on the way, as a logger that runs on has them.
-  const std::size_t at = 20;
-  const auto gimbals = [](const Channel& c) { return c.name.starts_with("gimbal_"); };
+  turn_by_hand(r, 20, 5);
   for (Channel& c : r.channels) {
-    const double from = c.values[at - 1], to = c.values[at];
-    for (int k = 1; k <= 3; ++k) {
-      const double part = gimbals(c) ? k / 4.0 : 0.0;
-      c.values.insert(c.values.begin() + static_cast<std::ptrdiff_t>(at) + k - 1,
-                      c.name == "time" ? from + k * (to - from) / 4.0 : from + part * (to - from));
-    }
+    if (c.name.starts_with("gimbal_") || c.name.starts_with("acc_"))
+      for (std::size_t k = 20; k < 25; ++k) c.values[k] = std::nan("");
+    c.values.erase(c.values.begin(), c.values.begin() + 18);  // two rows of the first position
   }
-  r.lines.resize(r.rows());
-  for (std::size_t k = 0; k < r.rows(); ++k) r.lines[k] = k + 2;
-  EXPECT_EQ(count_positions(r), "");
-  EXPECT_EQ(r.counted_positions, 6u);
-  // The row at which it has arrived holds a part of the turn.
-  EXPECT_EQ(r.rows(), whole.rows() - 1);
-  EXPECT_EQ(r.lines[at], at + 4 + 2) << "lines are those of the file";
+  r.lines.erase(r.lines.begin(), r.lines.begin() + 18);
+  ASSERT_EQ(count_positions(r), "");
+  EXPECT_EQ(counted(r), 5.0);
+  EXPECT_EQ(r.rows(), whole.rows() - 20);
+  EXPECT_EQ(values(r, "position").front(), 1.0);
 }
 
 TEST(CountPositions, WhatCannotBeCountedIsLeftAlone) {
   Recording r = without(recorded(plan_of("six", CommandLaw::free, 180.0)), {"position", "phase"});
   const std::size_t columns = r.channels.size();
-  EXPECT_NE(count_positions(r).find("it stands for 3 rows alone"), std::string::npos);
+  EXPECT_NE(count_positions(r).find("stands for 3 rows alone"), std::string::npos);
   EXPECT_EQ(r.channels.size(), columns);
   r = without(recorded(plan_of("six")), {"position", "phase", "acc_", "gimbal_"});
   EXPECT_NE(count_positions(r).find("neither all gimbals"), std::string::npos);

@@ -33,7 +33,7 @@ TEST(NamedAxes, SweptQuantitiesAreNumbersInTheUnitOfTheFirst) {
   EXPECT_EQ(axes.swept[0].unit.symbol.view(), "arcsec");
   ASSERT_EQ(axes.swept[0].numbers.size(), 4u);
   EXPECT_EQ(axes.swept[0].numbers[1], 20.0) << "as written";
-  EXPECT_NEAR(axes.swept[0].numbers[2], 300.0, 1e-9);
+  EXPECT_EQ(axes.swept[0].numbers[2], 300.0) << "a decimal stays one";
   EXPECT_TRUE(axes.swept[1].numbers.empty());
   EXPECT_EQ(axes.swept[1].words, (std::vector<std::string>{"eq5", "eq6", "eq5", "eq6"}));
 }

@@ -103,6 +103,57 @@ TEST(Sweep, RefusesAValueThatComesTwice) {
       << found[0];
 }
 
+TEST(Sweep, ATableIsLaidOverItsSection) {
+  // What it does not name stays: the other noise, the terms of the truth, the other parameters.
+  const std::string base = small_study + "[readout]\naccelerometer_noise = \"50 ug\"\n" +
+                           "[truth.parameters]\nD_F_y = \"0.25 deg/h\"\neta_x = { uniform = "
+                           "[\"0 arcsec\", \"9 arcsec\"] }\n";
+  const auto noise = mc::study_points(read_text(
+      base +
+      "[sweep]\nreadout = [{ gimbal_noise = \"1 arcsec\" }, { gimbal_noise = \"9 arcsec\" }]\n"));
+  for (const auto& p : noise) EXPECT_DOUBLE_EQ(p.study.readout.accelerometer_noise, 50e-6);
+  EXPECT_DOUBLE_EQ(noise[1].study.readout.gimbal_noise, 9.0 * drift::detail::deg / 3600.0);
+  const auto truths = mc::study_points(
+      read_text(base + "[sweep]\ntruth = [{ coupling = \"eq5\" }, { coupling = \"eq6\" }]\n"));
+  EXPECT_EQ(truths[1].study.truth.coupling, Coupling::eq6);
+  EXPECT_EQ(truths[1].study.truth.active, truths[0].study.truth.active);
+  EXPECT_EQ(truths[1].study.truth.active, read_text(base).truth.active);
+  const auto values =
+      mc::study_points(read_text(
+          base + "[sweep]\n\"truth.parameters\" = [{ D_F_x = \"1 deg/h\" }, { D_F_x = \"2 deg/h\", "
+                 "eta_x = { normal = [\"0 arcsec\", \"5 arcsec\"] } }]\n"));
+  for (const auto& p : values)
+    EXPECT_EQ(p.study.truth.priors[TermLibrary::index("D_F_y")].kind, Prior::Kind::fixed);
+  // A distribution is one value.
+  EXPECT_EQ(values[1].study.truth.priors[TermLibrary::index("eta_x")].kind, Prior::Kind::normal);
+}
+
+TEST(Sweep, RefusesAKeyThatTwoLinesSet) {
+  const auto found = [](const std::string& sweep) {
+    return mistakes(small_study + "[sweep]\n" + sweep);
+  };
+  const std::string noise = "\"readout.gimbal_noise\" = [\"7 arcsec\", \"70 arcsec\"]\n";
+  const auto both = found(noise + "readout = [{ gimbal_noise = \"1 arcsec\" }]\n");
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_NE(both[0].find("sets readout.gimbal_noise, and so does 'sweep.\"readout.gimbal_noise\"'"),
+            std::string::npos)
+      << both[0];
+  EXPECT_TRUE(found(noise + "readout = [{ accelerometer_noise = \"1 ug\" }]\n").empty());
+}
+
+TEST(Sweep, KeepsItsOrderWhereTheStudyIsWrittenDown) {
+  const std::string text = small_study +
+                           "[sweep]\nreadout = [{ gimbal_noise = \"1 arcsec\" }, { gimbal_noise = "
+                           "\"9 arcsec\" }]\n\"plan.dwell\" = [\"20 min\", \"40 min\"]\n";
+  const mc::Study study = read_text(text);
+  const auto points = mc::study_points(study), again = mc::study_points(read_text(study.text));
+  ASSERT_EQ(points.size(), 4u);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    EXPECT_EQ(points[k].label, again[k].label);
+    EXPECT_EQ(points[k].id, again[k].id);
+  }
+}
+
 TEST(Sweep, NamesThePointOfValuesThatDoNotGoTogether) {
   // Each alone is right with the base study; together the dwell is no whole number of samples.
   const std::string text = small_study +
