@@ -99,6 +99,10 @@ def exports_agree():
     run("export", "out", "--format", "json")
     made = json.loads(Path("out/export.json").read_text(encoding="utf-8"))["points"]
     assert made[2]["swept"] == {"truth.parameters.eta_x [arcsec]": 300, "truth.coupling": "eq5"}, made[2]["swept"]
+    swept = flat["points/truth_parameters_eta_x"]
+    assert list(swept[:]) == [20, 20, 300, 300] and swept.attrs["units"] == b"arcsec", swept[:]
+    assert list(flat["points/truth_coupling"][:]) == [0, 1, 0, 1]
+    assert flat["points/truth_coupling"].attrs["flag_meanings"] == b"eq5 eq6"
     point = flat["runs/point"][:]
     compared = 0
     for name in csv.columns:

@@ -15,6 +15,7 @@
 #include "mc/export/export_table.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/export/hdf5_output.hpp"
+#include "mc/export/swept_coordinates.hpp"
 
 namespace drift::mc {
 namespace {
@@ -37,6 +38,30 @@ void write_table(Hdf5Output& file, const ExportTable& table) {
     if (!c.meanings.empty()) file.set_flags(path, c.meanings);
     file.attach(set, scale, 0);
   }
+}
+
+/// What was swept, a study point per row: numbers in their unit, words by their places.
+ExportTable swept_table(const std::vector<StudyPoint>& points) {
+  ExportTable t{"points", "row", {}};
+  for (const SweptCoordinate& c : swept_coordinates(points)) {
+    if (!c.numbers.empty()) {
+      t.columns.push_back({.name = plain_name(c.key),
+                           .units = std::string(c.unit.symbol.view()),
+                           .about = c.key,
+                           .values = c.numbers});
+      continue;
+    }
+    ExportColumn words{.name = plain_name(c.key), .about = c.key};
+    std::vector<std::string> seen;
+    for (const std::string& word : c.words) {
+      const auto at = std::ranges::find(seen, word);
+      words.values.push_back(static_cast<double>(at - seen.begin()));
+      if (at == seen.end()) seen.push_back(word);
+    }
+    for (const std::string& word : seen) words.meanings.push_back(plain_name(word));
+    t.columns.push_back(std::move(words));
+  }
+  return t;
 }
 
 /// Names as datasets can have them, each once.
@@ -212,6 +237,7 @@ std::vector<std::string> write(StudyReader& reader, const StopRules& rules, cons
   }
   std::vector<ExportTable> tables{failures.finish()};
   if (tables.front().rows() == 0) tables.clear();
+  if (points.size() > 1 && !study_points.empty()) tables.push_back(swept_table(study_points));
   if (!study_points.empty()) std::ranges::move(statistics.finish(), std::back_inserter(tables));
   for (const ExportTable& table : tables) {
     write_table(file, table);

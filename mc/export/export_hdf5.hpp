@@ -16,9 +16,9 @@ namespace drift::mc {
 ///   /runs         one row per run: point, run, status, and a dataset per column
 ///   /summary      point x column, runs that are ok: n, mean, sd, min, max
 ///   /failures     one row per failed run: time and cause; not there if none failed
-///   /statistics, /filters, /convergence   what the runs say of the filters (export_table.hpp),
-///   given the
-///                 study points whose rows are StudyColumns
+/// and given the study points whose rows are StudyColumns
+///   /points       one row per study point: what was swept; not there if nothing was
+///   /statistics, /filters, /convergence   what the runs say of the filters (export_table.hpp)
 ///
 /// Where study points have different columns there is a group /runs_1, /summary_1, /runs_2, ... for
 /// every set of columns. Bounded memory; the file is complete or not there. Returns the names of

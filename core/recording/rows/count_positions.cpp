@@ -36,7 +36,9 @@ class Motion {
       if (const auto turn = turned(k - 1, k); turn && !commanded(k)) turns.push_back(*turn);
     }
     if (turns.empty()) return;
-    usual_turn_ = stats::median(turns);
+    const auto low = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 5);
+    std::ranges::nth_element(turns, low);
+    usual_turn_ = *low;
     usual_step_ = stats::median(steps);
   }
 
@@ -125,27 +127,15 @@ std::vector<Rows> turns_of(const Motion& motion, std::size_t rows) {
   return all;
 }
 
-/// Whether a turn may be a dwell in which the case turns: unbidden, and no shorter than the stand
-/// before it. It is said of the first.
-std::string turning_dwell(const Motion& motion, const Recording& r, const Rows& t,
-                          std::size_t stands_from) {
-  for (std::size_t k = t.first; k <= t.last; ++k)
-    if (motion.commanded(k)) return "";
-  if (t.count() < t.first - stands_from || motion.of_case(t.first - 1, t.first) == 0.0) return "";
-  return fmt::format(
-      "from line {} on the case turns in {} rows, which may be a position of its own",
-      r.lines[t.first], t.count());
-}
-
 /// How a turn is made.
-enum class By { command, hand };
+enum class By { command, case_alone, hand };
 
 By made_by(const Motion& motion, const Rows& t) {
   for (std::size_t k = t.first; k <= t.last; ++k)
     if (motion.commanded(k)) return By::command;
   const bool case_alone = motion.of_case(t.first - 1, t.last) > CountLimits::turn &&
                           !motion.of_platform(t.first - 1, t.last);
-  return case_alone ? By::command : By::hand;
+  return case_alone ? By::case_alone : By::hand;
 }
 
 /// Leaves out rows.
@@ -188,16 +178,19 @@ std::string count(const Recording& r, const Motion& motion, Counted& c) {
     const By by = made_by(motion, t);
     const bool shorter = t.first - stands_from < CountLimits::fewest_rows;
     // A log that begins while it is turned yet has no position there.
-    if (shorter && (!c.begins.empty() || by == By::command))
+    if (shorter && (!c.begins.empty() || by != By::hand))
       return fmt::format("from line {} on it stands for {} row{} alone", r.lines[stands_from],
                          t.first - stands_from, t.first - stands_from == 1 ? "" : "s");
-    if (const std::string why = turning_dwell(motion, r, t, stands_from); !shorter && !why.empty())
-      return why;
+    if (by == By::case_alone && t.count() >= t.first - stands_from)
+      return fmt::format(
+          "from line {} on the case turns in {} rows, no fewer than it stood before: "
+          "that may be a position of its own",
+          r.lines[t.first], t.count());
     if (shorter)
       leave_out(stands_from, t.first);
     else
       stand(t.first);
-    for (std::size_t k = t.first; by == By::command && k <= t.last; ++k) {
+    for (std::size_t k = t.first; by != By::hand && k <= t.last; ++k) {
       c.position[k] = static_cast<double>(c.begins.size() + 1);
       c.slew[k] = 1.0;
     }

@@ -16,10 +16,10 @@ struct CountLimits {
   static constexpr double turn = 2.0 * detail::deg;
   /// [rad/s] that a platform which stands may turn by: twice Earth rate, half of it drift.
   static constexpr double drift = 1.5e-4;
-  /// From row to row what stands turns by no more than so many times what is usual in the log (its
-  /// median, of drift and noise: of normal noise of three angles one row in 3e7 does), and so much
-  /// [rad].
-  static constexpr double usual = 4.0, still = 0.02 * detail::deg;
+  /// From row to row what stands turns by no more than so many times what the quietest fifth of a
+  /// log's rows do at most, for most of the rows may be on the way (of normal noise of three angles
+  /// one row in 1e7 does), and so much [rad].
+  static constexpr double usual = 6.0, still = 0.02 * detail::deg;
   /// [rad/s] beyond which a command is a slew: four times what holds a platform level.
   static constexpr double slew = 3.0e-4;
   /// Rows that a platform stands in a position, at least; the first one may still hold a turn.

@@ -27,7 +27,7 @@ TEST(UnsetMemory, ChangesNoResult) {
                         " --set plan.preset=slew12 --set 'plan.dwell=\"30 min\"' --set "
                         "'plan.slew_rate=\"0.05 deg/s\"'",
                     longer = " --set plan.preset=six --set 'plan.dwell=\"4 h\"'";
-  const std::string study = config("diagnose_equation.toml");
+  const std::string study = test::config("diagnose_equation.toml");
   std::vector<std::string> all;
   for (const std::string& plan : {slow, longer}) {
     all.push_back("identify " + study + plan + " --full");

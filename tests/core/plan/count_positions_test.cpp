@@ -137,12 +137,16 @@ TEST(CountPositions, WhatCannotBeCountedIsLeftAlone) {
   EXPECT_EQ(r.channels.size(), columns);
   r = without(recorded(plan_of("six")), {"position", "phase", "acc_", "gimbal_"});
   EXPECT_NE(count_positions(r).find("neither all gimbals"), std::string::npos);
-  // The case turns throughout a position, 10 deg a row.
-  r = without(recorded(plan_of("six")), {"position", "phase"});
+  // The case turns below the platform, 10 deg a row, for longer than it stood.
+  r = without(recorded(plan_of("six", CommandLaw::free, 3600.0)), {"position", "phase"});
   for (Channel& c : r.channels)
-    for (std::size_t k = 20; c.name == "case_heading" && k < 45; ++k)
-      c.values[k] += 10.0 * drift::detail::deg * static_cast<double>(k - 19);
-  EXPECT_NE(count_positions(r).find("from line 22 on the case turns in 26 rows"), std::string::npos)
+    for (std::size_t k = 10; k < 60; ++k) {
+      const double turn =
+          10.0 * drift::detail::deg * static_cast<double>(std::min<std::size_t>(k - 9, 30));
+      if (c.name == "case_heading") c.values[k] += turn;
+      if (c.name == "gimbal_inner") c.values[k] -= turn;
+    }
+  EXPECT_NE(count_positions(r).find("from line 12 on the case turns in 30 rows"), std::string::npos)
       << count_positions(r);
 }
 
