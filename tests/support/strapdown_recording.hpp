@@ -34,15 +34,15 @@ inline double param(const Theta& theta, std::string_view group, int axis) {
   return theta[static_cast<Eigen::Index>(*TermLibrary::find(key))];
 }
 
-/// Gyro outputs [rad/s]: w_g,i = (1 + s_i)(w_i + xi_i w_O + eta_i w_S) + drift.
+/// Gyro outputs [rad/s]: w_g,i = (1 + s_i)(w_i + xi_i w_O + eta_i w_S) + s_a,i |w_i| + drift.
 inline Vec3 gyro_output(const Theta& t, const Vec3& w, const Vec3& f) {
   Vec3 out;
   for (int i = 0; i < 3; ++i) {
     const int o = (i + 1) % 3, s = (i + 2) % 3;
     out[i] =
         (1.0 + param(t, "s", i)) * (w[i] + param(t, "xi", i) * w[o] + param(t, "eta", i) * w[s]) +
-        param(t, "D_F", i) + param(t, "D_I", i) * f[i] + param(t, "D_O", i) * f[o] +
-        param(t, "D_S", i) * f[s] + param(t, "D_IS", i) * f[i] * f[s];
+        param(t, "s_a", i) * std::abs(w[i]) + param(t, "D_F", i) + param(t, "D_I", i) * f[i] +
+        param(t, "D_O", i) * f[o] + param(t, "D_S", i) * f[s] + param(t, "D_IS", i) * f[i] * f[s];
   }
   return out;
 }

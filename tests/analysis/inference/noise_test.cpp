@@ -64,6 +64,19 @@ TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
   EXPECT_NEAR(ratio, 1.0, 0.10);
 }
 
+TEST(Noise, MoreOfADeclaredKindThanDeclaredMayBeAnEffect) {
+  TruthSpec truth = base_truth(Coupling::eq5);
+  truth.noise.angle_random_walk = 5e-3 * drift::detail::deg / 60.0;
+  const LinearProblem problem = problem_of(truth, 0, 1.0);
+  NoiseModel declared;
+  declared.angle_random_walk = truth.noise.angle_random_walk;
+  EXPECT_FALSE(estimate_noise(problem, declared).driven);
+  declared.angle_random_walk *= 0.25;
+  const NoiseEstimate more = estimate_noise(problem, declared);
+  EXPECT_TRUE(more.driven);
+  EXPECT_GT(find(more, "angle_random_walk")->factor, 2.0);
+}
+
 TEST(Noise, AnEffectInTheMeanIsNotTakenForNoise) {
   // A missing column of forty sigmas, smooth in time, looks like noise that drives the platform
   // until it is in the mean.

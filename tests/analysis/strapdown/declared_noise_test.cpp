@@ -1,0 +1,50 @@
+// Gyros that see the Earth: an effect in every turn looks like more noise of the declared kind.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/case_unit.hpp"
+#include "tests/support/program.hpp"
+
+namespace drift::declared_noise_test {
+namespace {
+
+constexpr const char* study_text = R"toml(schema = 1
+[site]
+latitude = "34.3775 deg"
+gravity = "9.8 m/s^2"
+[plan]
+kind = "strapdown"
+[[filter]]
+name = "nominal"
+coupling = "eq5"
+terms = ["fixed_drift", "gyro_misalignment", "torquer_scale", "K0", "K1", "dP", "dO"]
+)toml";
+
+TEST(DeclaredNoise, AnAsymmetryIsNoLargerNoiseOfTheGyros) {
+  const test::ScratchFolder scratch;
+  for (const double ppm : {0.0, 8.0}) {
+    Theta sensors = strapdown::case_unit::sensors();
+    test::set(sensors, "s_a_y", ppm);
+    write_recording(strapdown_recording(strapdown::case_unit::script(21), sensors),
+                    scratch.file("unit.csv"));
+    const test::Answer a =
+        test::driftscope("diagnose " + scratch.write("study.toml", study_text) + " " +
+                         scratch.file("unit.csv") + " -o " + scratch.file("out"));
+    ASSERT_EQ(a.code, 0) << a.err;
+    const auto d = nlohmann::json::parse(test::text_of(scratch.file("out/diagnosis.json")));
+    if (ppm == 0.0) {
+      EXPECT_EQ(d["verdict"], "consistent") << a.out;
+      continue;
+    }
+    ASSERT_EQ(d["verdict"], "named") << a.out;
+    ASSERT_EQ(d["causes"].size(), 1u);
+    EXPECT_EQ(d["causes"][0]["term"], "torquer_asymmetry");
+    EXPECT_EQ(d["causes"][0]["axis"], "y");
+    const auto& p = d["causes"][0]["parameters"][0];
+    EXPECT_NEAR(std::abs(p["value"].get<double>()), ppm, 4.0 * p["sigma"].get<double>());
+  }
+}
+
+}  // namespace
+}  // namespace drift::declared_noise_test
