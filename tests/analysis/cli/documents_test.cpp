@@ -36,6 +36,10 @@ std::vector<std::string> commands() {
     for (std::string line; std::getline(text, line);) {
       const std::string start = "    ./driftscope ";
       if (!line.starts_with(start) || line.starts_with(start + "test")) continue;
+      for (std::string more; line.ends_with('\\') && std::getline(text, more);) {
+        line.pop_back();
+        line += more.substr(more.find_first_not_of(' '));
+      }
       std::string command = line.substr(start.size(), line.find('#') - start.size());
       command.resize(command.find_last_not_of(' ') + 1);
       if (seen.insert(command).second) found.push_back(command);
