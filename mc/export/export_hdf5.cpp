@@ -40,18 +40,40 @@ void write_table(Hdf5Output& file, const ExportTable& table) {
   }
 }
 
+/// Names as datasets can have them, each once.
+std::vector<std::string> dataset_names(const std::vector<std::string>& wanted) {
+  std::set<std::string> taken{"point", "run", "status", "row", "column"};
+  std::vector<std::string> names;
+  for (const std::string& w : wanted) {
+    std::string name = plain_name(w);
+    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", plain_name(w), i);
+    names.push_back(name);
+  }
+  return names;
+}
+std::vector<std::string> dataset_names(const std::vector<Column>& columns) {
+  std::vector<std::string> wanted;
+  for (const Column& c : columns) wanted.push_back(c.name);
+  return dataset_names(wanted);
+}
+
 /// What was swept, a study point per row: numbers in their unit, words by their places.
 ExportTable swept_table(const std::vector<StudyPoint>& points) {
   ExportTable t{"points", "row", {}};
-  for (const SweptCoordinate& c : swept_coordinates(points)) {
+  const std::vector<SweptCoordinate> all = swept_coordinates(points);
+  std::vector<std::string> keys;
+  for (const SweptCoordinate& c : all) keys.push_back(c.key);
+  const std::vector<std::string> names = dataset_names(keys);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const SweptCoordinate& c = all[k];
     if (!c.numbers.empty()) {
-      t.columns.push_back({.name = plain_name(c.key),
+      t.columns.push_back({.name = names[k],
                            .units = std::string(c.unit.symbol.view()),
                            .about = c.key,
                            .values = c.numbers});
       continue;
     }
-    ExportColumn words{.name = plain_name(c.key), .about = c.key};
+    ExportColumn words{.name = names[k], .about = c.key};
     std::vector<std::string> seen;
     for (const std::string& word : c.words) {
       const auto at = std::ranges::find(seen, word);
@@ -62,19 +84,6 @@ ExportTable swept_table(const std::vector<StudyPoint>& points) {
     t.columns.push_back(std::move(words));
   }
   return t;
-}
-
-/// Names as datasets can have them, each once.
-std::vector<std::string> dataset_names(const std::vector<Column>& columns) {
-  std::set<std::string> taken{"point", "run", "status", "row", "column"};
-  std::vector<std::string> names;
-  for (const Column& c : columns) {
-    std::string name = plain_name(c.name);
-    for (int i = 2; !taken.insert(name).second; ++i)
-      name = fmt::format("{}_{}", plain_name(c.name), i);
-    names.push_back(name);
-  }
-  return names;
 }
 
 /// Points that have the same columns, and what is written of them.

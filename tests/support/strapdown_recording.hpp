@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -26,6 +27,15 @@ struct StrapdownScript {
   std::uint64_t seed = 1;
   Mat3 attitude = Mat3::Identity();  ///< of the case against the local axes, at the start
 };
+
+/// The text of a study of such a recording, with the sensors' own parameters in the model.
+inline std::string strapdown_study(std::string_view latitude, std::string_view gravity) {
+  return "schema = 1\n[site]\nlatitude = \"" + std::string(latitude) + "\"\ngravity = \"" +
+         std::string(gravity) +
+         "\"\n[plan]\nkind = \"strapdown\"\n[[filter]]\nname = \"nominal\"\ncoupling = \"eq5\"\n"
+         "terms = [\"fixed_drift\", \"gyro_misalignment\", \"torquer_scale\", \"K0\", \"K1\", "
+         "\"dP\", \"dO\"]\n";
+}
 
 inline double param(const Theta& theta, std::string_view group, int axis) {
   std::string key(group);

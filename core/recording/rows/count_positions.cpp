@@ -174,13 +174,16 @@ std::string count(const Recording& r, const Motion& motion, Counted& c) {
     for (std::size_t k = stands_from; k < end; ++k)
       c.position[k] = static_cast<double>(c.begins.size());
   };
+  const auto too_short = [&](std::size_t end) {
+    return fmt::format("from line {} on it stands for {} row{} alone",
+                       r.lines[std::min(stands_from, rows - 1)], end - stands_from,
+                       end - stands_from == 1 ? "" : "s");
+  };
   for (const Rows& t : turns_of(motion, rows)) {
     const By by = made_by(motion, t);
     const bool shorter = t.first - stands_from < CountLimits::fewest_rows;
     // A log that begins while it is turned yet has no position there.
-    if (shorter && (!c.begins.empty() || by != By::hand))
-      return fmt::format("from line {} on it stands for {} row{} alone", r.lines[stands_from],
-                         t.first - stands_from, t.first - stands_from == 1 ? "" : "s");
+    if (shorter && (!c.begins.empty() || by != By::hand)) return too_short(t.first);
     if (by == By::case_alone && t.count() >= t.first - stands_from)
       return fmt::format(
           "from line {} on the case turns in {} rows, no fewer than it stood before: "
@@ -203,9 +206,7 @@ std::string count(const Recording& r, const Motion& motion, Counted& c) {
   if (rows - stands_from >= CountLimits::fewest_rows)
     stand(rows);
   else if (c.slew[stands_from == 0 ? 0 : stands_from - 1] == 1.0 || c.begins.empty())
-    return fmt::format("from line {} on it stands for {} row{} alone",
-                       r.lines[std::min(stands_from, rows - 1)], rows - stands_from,
-                       rows - stands_from == 1 ? "" : "s");
+    return too_short(rows);
   else
     leave_out(stands_from, rows);
   return "";

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/units.hpp"
+#include "core/recording/own/guess_position.hpp"
 #include "core/recording/recording.hpp"
 
 namespace drift {
@@ -23,7 +24,7 @@ struct CountLimits {
   /// [rad/s] beyond which a command is a slew: four times what holds a platform level.
   static constexpr double slew = 3.0e-4;
   /// Rows that a platform stands in a position, at least; the first one may still hold a turn.
-  static constexpr std::size_t fewest_rows = 4;
+  static constexpr std::size_t fewest_rows = PositionLimits::fewest_rows;
 };
 
 /// The fact of a recording whose positions were counted: how many.
@@ -34,9 +35,9 @@ inline constexpr std::string_view positions_counted = "positions_counted";
 /// heading of the case; commands). Rows in which it is turned by commands, or the case below it,
 /// are slews to the position that they lead to. Those in which it is turned by neither belong to
 /// none and are left out; of the row in which it arrives, the gimbals at its end are kept and the
-/// accelerometers' mean is not measured. So is the begin of a log that begins on the way, and its
-/// end. A remark says what was counted, and the fact positions_counted. Where `phase` is recorded,
-/// slews are what it says.
+/// accelerometers' mean is not measured. Left out is also what a log has before the first position
+/// and behind the last one. A remark says what was counted, and the fact positions_counted. Where
+/// `phase` is recorded, slews are what it says.
 ///
 /// Nothing is done, and what stands against it is returned, where a stretch between two turns is
 /// shorter than CountLimits::fewest_rows, where the case turns for as long as it stood, or where

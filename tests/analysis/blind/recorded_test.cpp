@@ -20,17 +20,8 @@
 namespace drift::blind::recorded_test {
 namespace {
 
-constexpr const char* study_text = R"toml(schema = 1
-[site]
-latitude = "45.75 deg"
-gravity = "9.80665 m/s^2"
-[plan]
-kind = "strapdown"
-[[filter]]
-name = "nominal"
-coupling = "eq5"
-terms = ["fixed_drift", "gyro_misalignment", "torquer_scale", "K0", "K1", "dP", "dO"]
-[monte_carlo]
+const std::string study_text = test::strapdown_study("45.75 deg", "9.80665 m/s^2") +
+                               R"toml([monte_carlo]
 seed = 3
 [blind]
 trials = 6

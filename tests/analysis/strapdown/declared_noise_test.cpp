@@ -9,28 +9,17 @@
 namespace drift::declared_noise_test {
 namespace {
 
-constexpr const char* study_text = R"toml(schema = 1
-[site]
-latitude = "34.3775 deg"
-gravity = "9.8 m/s^2"
-[plan]
-kind = "strapdown"
-[[filter]]
-name = "nominal"
-coupling = "eq5"
-terms = ["fixed_drift", "gyro_misalignment", "torquer_scale", "K0", "K1", "dP", "dO"]
-)toml";
-
 TEST(DeclaredNoise, AnAsymmetryIsNoLargerNoiseOfTheGyros) {
   const test::ScratchFolder scratch;
+  const std::string study =
+      scratch.write("study.toml", test::strapdown_study("34.3775 deg", "9.8 m/s^2"));
   for (const double ppm : {0.0, 8.0}) {
     Theta sensors = strapdown::case_unit::sensors();
     test::set(sensors, "s_a_y", ppm);
     write_recording(strapdown_recording(strapdown::case_unit::script(21), sensors),
                     scratch.file("unit.csv"));
-    const test::Answer a =
-        test::driftscope("diagnose " + scratch.write("study.toml", study_text) + " " +
-                         scratch.file("unit.csv") + " -o " + scratch.file("out"));
+    const test::Answer a = test::driftscope("diagnose " + study + " " + scratch.file("unit.csv") +
+                                            " -o " + scratch.file("out"));
     ASSERT_EQ(a.code, 0) << a.err;
     const auto d = nlohmann::json::parse(test::text_of(scratch.file("out/diagnosis.json")));
     if (ppm == 0.0) {
