@@ -11,7 +11,7 @@ namespace {
 
 /// Numbers of states that there is code for; states that are not there stay zero.
 constexpr int rounded_up(int states) {
-  for (const int n : {3, 6, 9, 12})
+  for (const int n : {3, 4, 6, 9, 12})
     if (states <= n) return n;
   return most_states;
 }
@@ -22,6 +22,8 @@ void for_states(int states, F&& f) {
   switch (states) {
     case 3:
       return f.template operator()<3>();
+    case 4:
+      return f.template operator()<4>();
     case 6:
       return f.template operator()<6>();
     case 9:
@@ -33,11 +35,12 @@ void for_states(int states, F&& f) {
   }
 }
 
-/// Lanes of columns at once whose states and innovations fit into the registers.
+/// Lanes of columns at once whose states and innovations fit into the registers; two at least, as
+/// the innovations of one would wait for each other.
 template <int states>
 constexpr int lanes_of() {
-  constexpr int registers = lane_width == 8 ? 32 : 16, fit = (registers - 3) / (states + 1);
-  return fit > 4 ? 4 : fit < 1 ? 1 : fit;
+  constexpr int registers = lane_width == 8 ? 32 : 16, fit = (registers - 2) / (states + 1);
+  return fit > 4 ? 4 : fit < 2 ? 2 : fit;
 }
 
 }  // namespace
@@ -55,9 +58,10 @@ NoiseFilter::NoiseFilter(const MeasuredRows& rows, const NoiseModel& noise) : ro
 
 template <int states>
 void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, int used) {
-  using Pairs = Eigen::Matrix<double, states, states>;
-  using Over = Eigen::Matrix<double, states, 1>;
   constexpr int others = states - 3;
+  constexpr int whole = static_cast<int>(whole_lanes(states));  // rows: Eigen handles them by lanes
+  using Pairs = Eigen::Matrix<double, whole, states>;
+  using Over = Eigen::Matrix<double, states, 1>;
   const NoiseStates s(noise);
   Pairs P = Pairs::Zero();
   P.topLeftCorner(used, used) = initial_covariance(s, noise);
@@ -75,19 +79,22 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
       },
       [&](const NoiseStep& step) {
         if constexpr (others > 0) {
-          const Eigen::Matrix<double, 3, others> drive = step.drive.template leftCols<others>();
+          Eigen::Matrix<double, 4, others> drive;  // a fourth row of zeros
+          drive << step.drive.template leftCols<others>(), Eigen::Matrix<double, 1, others>::Zero();
           const Eigen::Matrix<double, others, 1> decay = step.decay.template head<others>();
           // F P F' of F = [1, drive; 0, decay].
-          P.template topRows<3>() += drive * P.template bottomRows<others>();
-          P.template leftCols<3>() += P.template rightCols<others>() * drive.transpose();
-          P.template bottomRows<others>().array().colwise() *= decay.array();
+          P.template topRows<4>() += drive * P.template middleRows<others>(3);
+          P.template leftCols<3>() +=
+              P.template rightCols<others>() * drive.template topRows<3>().transpose();
+          P.template middleRows<others>(3).array().colwise() *= decay.array();
           P.template rightCols<others>().array().rowwise() *= decay.transpose().array();
           P.diagonal().template tail<others>() += step.variance.template head<others>();
-          if (step.kicked) {  // of the first of the others
-            P.template topLeftCorner<3, 3>() += step.kick * step.kick.transpose();
-            P.template block<3, 3>(0, 3) += step.kick;
-            P.template block<3, 3>(3, 0) += step.kick.transpose();
-          }
+          if constexpr (others >= 3)
+            if (step.kicked) {  // of the first of the others
+              P.template topLeftCorner<3, 3>() += step.kick * step.kick.transpose();
+              P.template block<3, 3>(0, 3) += step.kick;
+              P.template block<3, 3>(3, 0) += step.kick.transpose();
+            }
           events_.push_back({next, false, moves_.size()});
           for (int m = 0; m < others; ++m)
             moves_.insert(moves_.end(), {drive(0, m), drive(1, m), drive(2, m), decay[m]});
@@ -98,11 +105,11 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
         Eigen::Map<Over> h(H_.data() + at * states), gain(gain_.data() + at * states);
         h.setZero();
         h.head(used) = given;
-        const Over Ph = P * h;
-        const double S = h.dot(Ph) + sigma * sigma;
-        gain = Ph / S;
+        const Eigen::Matrix<double, whole, 1> Ph = P * h;
+        const double S = h.dot(Ph.template head<states>()) + sigma * sigma;
+        gain = Ph.template head<states>() / S;
         root_[at] = std::sqrt(S);
-        P.noalias() -= gain * Ph.transpose();
+        P.noalias() -= Ph * gain.transpose();
         reads_others_[at] = !h.template tail<others>().isZero(0.0);
         product *= S;
         if (!(product > 1e-150 && product < 1e150))

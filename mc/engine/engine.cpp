@@ -51,7 +51,8 @@ class Engine {
 
   void execute() {
     BlockBoard board([this] { return plan_.next(); }, columns());
-    const int threads = options_.threads > 0 ? options_.threads : usual_threads();
+    const ThreadCount told(options_.threads);  // one thread: runs spread nothing either
+    const int threads = usual_threads();
     require_threads(threads);
 #pragma omp parallel num_threads(threads)
     work_through(board);
@@ -104,7 +105,9 @@ class Engine {
     if (outcome.status != RunStatus::ok) {
       ++own_failed_;
       int expected = none;
-      if (options_.fail_fast) stop_.compare_exchange_strong(expected, failed_run);
+      if (options_.fail_fast && stop_.compare_exchange_strong(expected, failed_run))
+        failed_first_ = {ticket.point(),
+                         {ticket.run(), outcome.status, outcome.cause, outcome.t_failed, 0.0}};
     }
     ++own_done_;
     if (auto block = board.finish(ticket, outcome)) queue_.store(std::move(*block));
@@ -168,6 +171,7 @@ class Engine {
   StudyOutcome finish() {
     StudyOutcome outcome;
     outcome.leader = ranks_.leader();
+    outcome.failed_first = failed_first_;
     ranks_.add(Counter::executed, own_done_);
     outcome.code = agree(stop_code());
     if (queue_.error()) {
@@ -238,6 +242,7 @@ class Engine {
   WorkPlan plan_;
   std::atomic<std::uint64_t> own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;
+  std::optional<StudyOutcome::FailedRun> failed_first_;  ///< by the thread that stopped for it
   std::mutex progress_guard_;
   BlockQueue queue_{[this](const std::vector<StoredBlock>& batch) { commit(batch); }};
   double told_ = -1.0;

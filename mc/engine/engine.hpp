@@ -11,6 +11,7 @@
 #include "mc/engine/mpi_launch.hpp"
 #include "mc/engine/work_session.hpp"
 #include "mc/store/manifest.hpp"
+#include "mc/store/stored_block.hpp"
 #include "mc/task/run_task.hpp"
 
 namespace drift::mc {
@@ -54,6 +55,12 @@ struct StudyOutcome {
   double seconds = 0.0;         ///< of the clock, this session
   std::string digest;           ///< results_digest() (complete studies)
   std::vector<std::string> notes;  ///< damage found and mended
+  /// The run at which `fail_fast` ended the session of this process. Its block is not stored.
+  struct FailedRun {
+    std::size_t point = 0;
+    Failure failure;
+  };
+  std::optional<FailedRun> failed_first;
 };
 
 /// Executes what is missing of a study and stores it in a folder that claim_folder() accepted.

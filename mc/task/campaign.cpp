@@ -56,27 +56,47 @@ void require_threads(int threads) {
   granted = threads;
 }
 
-void for_each_index(std::size_t n, const std::function<void(std::size_t)>& task, int threads) {
-  std::exception_ptr first;
-  std::size_t first_index = n;
-  std::mutex guard;
-  if (threads <= 0) threads = usual_threads();
-  if (n < static_cast<std::size_t>(threads)) threads = std::max(1, static_cast<int>(n));
-  require_threads(threads);
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(n); ++i) {
-    const auto k = static_cast<std::size_t>(i);
+namespace {
+
+/// The exception of the lowest index among those that tasks threw.
+class FirstException {
+ public:
+  void run(const std::function<void(std::size_t)>& task, std::size_t k) {
     try {
       task(k);
     } catch (...) {
-      const std::scoped_lock lock(guard);
-      if (k < first_index) {
-        first_index = k;
-        first = std::current_exception();
-      }
+      const std::scoped_lock lock(guard_);
+      if (exception_ && k >= index_) return;
+      index_ = k;
+      exception_ = std::current_exception();
     }
   }
-  if (first) std::rethrow_exception(first);
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::mutex guard_;
+  std::size_t index_ = 0;
+  std::exception_ptr exception_;
+};
+
+}  // namespace
+
+void for_each_index(std::size_t n, const std::function<void(std::size_t)>& task, int threads) {
+  const ThreadCount told(threads);  // what tasks spread in turn uses no more than was asked for
+  threads = usual_threads();
+  FirstException first;
+  if (n <= 1 || threads == 1 || omp_in_parallel()) {
+    for (std::size_t k = 0; k < n; ++k) first.run(task, k);
+  } else {
+    threads = static_cast<int>(std::min(n, static_cast<std::size_t>(threads)));
+    require_threads(threads);
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(n); ++i)
+      first.run(task, static_cast<std::size_t>(i));
+  }
+  first.rethrow();
 }
 
 }  // namespace drift::mc

@@ -110,16 +110,19 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
         folder, blocks_text(o.missing - o.missing_own));
 }
 
+void say_failed(const std::string& folder, std::size_t point, const mc::Failure& f) {
+  say("failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope replay {} --run "
+      "{}{}\n",
+      point, f.run, mc::name(f.status), f.t, f.cause, folder, f.run,
+      point > 0 ? fmt::format(" --point {}", point) : "");
+}
+
 void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const std::string& folder) {
   constexpr std::size_t most = 5;
   std::size_t count = 0;
   reader.each_result(rules, [&](const mc::StoredBlock& b) {
     for (const mc::Failure& f : b.failures)
-      if (++count <= most)
-        say("failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope "
-            "replay {} --run {}{}\n",
-            b.block.point, f.run, mc::name(f.status), f.t, f.cause, folder, f.run,
-            b.block.point > 0 ? fmt::format(" --point {}", b.block.point) : "");
+      if (++count <= most) say_failed(folder, b.block.point, f);
   });
   if (count > most)
     say("failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` "
@@ -180,6 +183,8 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (ranks.leader()) say("results go to {}\n", folder);
   const mc::StudyOutcome outcome =
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
+  if (outcome.failed_first)
+    say_failed(folder, outcome.failed_first->point, outcome.failed_first->failure);
   if (!outcome.leader) return outcome.code;
   tell(outcome, options, folder);
   if (stopped(outcome)) return outcome.code;  // one line; failures are listed when the study ends

@@ -120,7 +120,12 @@ TEST(StudyCommands, FailedRunsAreCountedListedAndDecideTheExitCode) {
   EXPECT_EQ(program("run " + config + " --set monte_carlo.allowed_failures=5 -o " + out).code, 0);
   EXPECT_EQ(program("replay " + out + " --run 49").code, 0)
       << "a failed run comes out again as it was";
-  EXPECT_EQ(program("run " + config + " --fail-fast -o " + scratch.file("fast")).code, 5);
+  const Answer fast =
+      program("run " + config + " --threads 1 --fail-fast -o " + scratch.file("fast"));
+  EXPECT_EQ(fast.code, 5);
+  EXPECT_NE(fast.err.find("failed: point 0, run 3: error at t = 0 s: thrown by run 3. Look closer"),
+            std::string::npos)
+      << fast.err;
 }
 
 TEST(StudyCommands, WallTimeIsExitCode75AndTheSameCommandGoesOn) {
