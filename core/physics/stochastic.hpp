@@ -36,11 +36,14 @@ inline double bistable_size(const Theta& theta, int axis) {
   constexpr std::size_t B = TermLibrary::index("B_x");
   return theta[B + axis];
 }
+/// How long a level lasts on average [s].
+inline double bistable_dwell(const Theta& theta) {
+  return theta[TermLibrary::index("B_dwell")];
+}
 /// Probability that the level is the other one a time T [s] later: telegraph noise whose levels
 /// last for B_dwell on average.
 inline double flip_probability(const Theta& theta, double T) {
-  constexpr std::size_t dwell = TermLibrary::index("B_dwell");
-  return 0.5 * (1.0 - std::exp(-2.0 * T / theta[dwell]));
+  return 0.5 * (1.0 - std::exp(-2.0 * T / bistable_dwell(theta)));
 }
 
 /// Variance that D_F of gyro `axis` gains over T [s], for a filter [(rad/s)^2]. Telegraph noise +-B
@@ -60,10 +63,20 @@ inline bool drift_varies(const ProcessNoise& noise, const TermMask& terms) {
   return noise.drift_random_walk > 0.0 || walks(terms) || is_bistable(terms);
 }
 
-/// The model with D_F in it where something random acts through D_F.
-inline DriftModel with_random_drift(DriftModel model) {
+inline bool drift_varies(const ModelSpec& spec) {
+  return drift_varies(spec.noise, spec.model().terms);
+}
+
+/// Whether something random drives the platform.
+inline bool has_process_noise(const ModelSpec& spec) {
+  return spec.noise.any() || drift_varies(spec);
+}
+
+/// The model with D_F in it where something random acts through D_F, whether or not it has a
+/// constant one.
+inline DriftModel with_random_drift(const ProcessNoise& noise, DriftModel model) {
   constexpr std::size_t fixed = TermLibrary::term_index("fixed_drift");
-  if (walks(model.terms) || is_bistable(model.terms)) model.terms.set(fixed);
+  if (drift_varies(noise, model.terms)) model.terms.set(fixed);
   return model;
 }
 

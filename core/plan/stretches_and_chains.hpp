@@ -15,6 +15,13 @@ inline bool begins_anew(const Timeline& timeline, std::size_t i) {
          now.rest != before.rest;
 }
 
+/// From the end of the interval before, or the beginning of the test, to the end of interval i [s].
+inline double time_since_before(const Timeline& timeline, std::size_t i) {
+  const Interval& now = timeline.intervals[i];
+  const double gap = i > 0 ? now.t0 - timeline.intervals[i - 1].t1 : 0.0;
+  return now.length() + std::max(0.0, gap);
+}
+
 /// Of how many samples the first block of a stretch is, after which an estimator linearises anew;
 /// each further one is of twice as many: six blocks or so, however densely a stretch is sampled.
 inline std::size_t first_block(std::size_t samples) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/physics/stochastic.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 #include "core/sim/instruments.hpp"
 #include "core/sim/platform_ode.hpp"
 
@@ -47,7 +48,8 @@ Simulator::Simulator(const TruthSpec& truth, const Readout& readout, const OdeOp
     : truth_(truth),
       readout_(readout),
       model_(truth.model()),
-      engine_(new Engine{PlatformOde(with_random_drift(model_), truth.servo, options)}) {}
+      engine_(
+          new Engine{PlatformOde(with_random_drift(truth.noise, model_), truth.servo, options)}) {}
 
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
@@ -104,7 +106,7 @@ void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t 
 
 /// All parameters as they are in interval i: the drift's random walk goes on, its level may flip.
 Theta Simulator::drift_of(const Timeline& timeline, std::size_t i) {
-  const double T = timeline.intervals[i].length();
+  const double T = time_since_before(timeline, i);
   for (int a = 0; a < 3; ++a)
     theta_[fixed_drift + a] += drift_walk(truth_.noise, model_.terms, theta_, a) * std::sqrt(T) *
                                process_noise_[3 + a]->normal();

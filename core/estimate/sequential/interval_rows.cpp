@@ -4,6 +4,7 @@
 
 #include "core/estimate/rest_rate.hpp"
 #include "core/estimate/sequential/drift_walk.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 #include "core/sim/held_noise.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -82,6 +83,9 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
     held = held_noise(interval, timeline_);
     attitude_.hold(arw * arw / interval.length());
   }
+  for (std::size_t k = 0; k < attitude_.walking().size(); ++k)
+    attitude_.walk(k, walk_variance(filter_, layout_, attitude_.walking()[k], theta_,
+                                    time_since_before(timeline_, i)));
   const Mat3& Phi_m = sensitivity_.Phi[middle];
   attitude_.propagate(Phi_m, sensitivity_.G[middle], held.to_middle);
   if (readout_.accelerometers && acc.array().isFinite().any()) {
@@ -110,9 +114,6 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
                  interval.gimbal_noise(readout_.gimbal_noise)},
                 gate, rows, taken);
   }
-  for (std::size_t k = 0; k < attitude_.walking().size(); ++k)
-    attitude_.walk(
-        k, walk_variance(filter_, layout_, attitude_.walking()[k], theta_, interval.length()));
   return taken;
 }
 

@@ -10,6 +10,7 @@
 #include "core/estimate/rest_rate.hpp"
 #include "core/estimate/sequential/drift_walk.hpp"
 #include "core/physics/stochastic.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 #include "core/sim/measurements.hpp"
 
 namespace drift {
@@ -48,6 +49,7 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   if (status_ != EstimateStatus::ok) return taken_;
   const Interval& interval = timeline_.intervals[i];
   linearise(i);
+  let_drift_vary(time_since_before(timeline_, i));
 
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
@@ -72,7 +74,6 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   if (status_ != EstimateStatus::ok) return taken_;
 
   phi_ = nodes_[last];
-  let_drift_vary(interval.length());
   return taken_;
 }
 
