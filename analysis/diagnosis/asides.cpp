@@ -6,6 +6,7 @@
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/common_scale.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/estimate/layout.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::diagnosis {
@@ -72,6 +73,22 @@ std::vector<NamedEffect> twins_of(const TermInfo& unseen,
   return twins;
 }
 
+/// What a fit says where its noise drives the platform: the batch fit itself knows no drift that
+/// varies.
+EstimateResult under_its_noise(const search::Fitted& f) {
+  EstimateResult out = f.fit.estimate;
+  if (!f.noise.model.driven()) return out;
+  const Layout layout = make_layout(f.filter);
+  const inference::Projector::Fit fit = f.projector->fit();
+  for (std::size_t k = 0; k < layout.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    ParameterEstimate& p = out.parameters[k];
+    p.value = layout.mean[i] + layout.sigma[i] * fit.x[i];
+    p.sigma = layout.sigma[i] * std::sqrt(fit.covariance(i, i));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<NearestKnown> nearest_known(const search::Fitted& nominal,
@@ -107,22 +124,23 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& w) {
   return remark::LeftNotWhite{w.ljung_box_p_before, w.ljung_box_p_after};
 }
 
-std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit,
-                                                double alpha) {
+std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
+                                                const search::Fitted& fit, double alpha) {
   remark::BeyondPrior out;
+  const EstimateResult estimate = under_its_noise(fit);
   // Of a cause: its size is told elsewhere.
   out.of = static_cast<std::size_t>(std::ranges::count_if(
-      fit.estimate.parameters,
+      estimate.parameters,
       [&](const ParameterEstimate& p) { return nominal.active[p.param] && p.prior_sigma > 0.0; }));
   if (out.of == 0) return std::nullopt;
   const double tries = static_cast<double>(out.of);
   for (const auto& [param, sigmas] :
-       identification::beyond_prior(fit.estimate, stats::normal_half_width(1.0 - alpha / tries)))
+       identification::beyond_prior(estimate, stats::normal_half_width(1.0 - alpha / tries)))
     if (nominal.active[param])
       out.parameters.push_back(
-          {*fit.estimate.find(param), sigmas, tries * 2.0 * stats::normal_distribution(-sigmas)});
+          {*estimate.find(param), sigmas, tries * 2.0 * stats::normal_distribution(-sigmas)});
   if (out.parameters.empty()) return std::nullopt;
-  out.scales = identification::common_scale(fit.estimate);
+  out.scales = identification::common_scale(estimate);
   return out;
 }
 

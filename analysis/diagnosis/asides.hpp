@@ -22,8 +22,8 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& whiteness);
 /// Nominal parameters that the recording moves further from their priors than any of them would
 /// lie with a chance of alpha, were all priors right (Bonferroni): the fit is good, what it says is
 /// not to be believed (isotropic D_I, for one, is Earth rate about Up).
-std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal, const BatchResult& fit,
-                                                double alpha);
+std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
+                                                const search::Fitted& fit, double alpha);
 
 /// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not
 /// tell, its agreement says nothing of it (physics.md 1.7). Empty where a cause is the equation.

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/inference/marginal.hpp"
 #include "analysis/inference/whiteness.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::diagnosis {
@@ -40,6 +42,13 @@ std::vector<ShiftedParameter> shifts(const BatchResult& before, const BatchResul
   return all;
 }
 
+/// Cost of a fit under the noise that its filter declares; the batch fit knows none that drives the
+/// drift.
+double chi2_as_declared(const search::Fitted& f) {
+  if (!drift_varies(f.filter)) return f.fit.estimate.statistic;
+  return inference::marginal_of(f.problem, search::declared_noise(f.filter)).chi2;
+}
+
 }  // namespace
 
 double start_spread(const std::vector<BatchResult>& fits) {
@@ -62,8 +71,8 @@ FitComparison compare(const search::Fitted& nominal, const search::Refit* patche
   FitComparison c;
   c.dof = nominal.fit.estimate.measured;
   // Cost (data and prior) is chi-square of as many degrees as there are scalars.
-  c.chi2_before = nominal.fit.estimate.statistic;
-  c.chi2_after = after.fit.estimate.statistic;
+  c.chi2_before = chi2_as_declared(nominal);
+  c.chi2_after = chi2_as_declared(after);
   const auto n = static_cast<double>(c.dof);
   c.chi2_per_dof_before = c.chi2_before / n;
   c.chi2_per_dof_after = c.chi2_after / n;

@@ -16,6 +16,7 @@
 #include "core/base/memory.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
 #include "mc/study/simulated_surroundings.hpp"
@@ -121,12 +122,16 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
   return all;
 }
 
-std::vector<SampleOfTest> samples_of(const Timeline& timeline, const Readout& readout) {
+/// ends: of each recording, the interval after its last.
+std::vector<SampleOfTest> samples_of(const Timeline& timeline, const Readout& readout,
+                                     const std::vector<std::size_t>& ends) {
   std::vector<SampleOfTest> samples;
-  for (const Interval& i : timeline.intervals)
-    samples.push_back({i.t1, i.position + 1, i.slew,
-                       i.accelerometer_noise(readout.accelerometer_noise),
-                       i.gimbal_noise(readout.gimbal_noise)});
+  for (const Interval& i : timeline.intervals) {
+    const auto recording = std::ranges::upper_bound(ends, samples.size()) - ends.begin();
+    samples.push_back(
+        {i.t1, i.position + 1, i.slew, i.accelerometer_noise(readout.accelerometer_noise),
+         i.gimbal_noise(readout.gimbal_noise), static_cast<std::size_t>(recording) + 1});
+  }
   return samples;
 }
 
@@ -186,7 +191,7 @@ void doubt_study(const mc::Study& study, const std::vector<Recording>& recording
 }  // namespace
 
 const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first) {
-  return filter.noise.any() ? first.ekf : first.batch.estimate;
+  return drift_varies(filter) ? first.ekf : first.batch.estimate;
 }
 
 bool misfit(const EstimateResult& result) {
@@ -218,7 +223,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   set_loop(timeline, study.truth);
   const std::uint64_t seed = study.monte_carlo.seed;
   set_environment(timeline, study.environment, seed, run);
-  id.samples = samples_of(timeline, study.readout);
+  id.samples = samples_of(timeline, study.readout, {timeline.intervals.size()});
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
@@ -231,7 +236,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   require_ok(sim.ode, run);
   id.truth->theta = sim.theta_end;  // what an estimate at the end is to be compared with
   set_lambda(study.truth, id.truth->theta);
-  id.recording = make_recording(timeline, sim.measured, study.readout);
+  id.recordings = {make_recording(timeline, sim.measured, study.readout)};
   run_jobs(study, id, threads, progress,
            [&](const Job& job) { return estimate(study, job, timeline, sim.measured); });
   return id;
@@ -242,7 +247,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   Identification id;
   for (const Recording& r : recordings) id.sources.push_back(r.source);
   const preparation::Prepared ready = preparation::prepare(study, recordings);
-  id.recording = ready.recordings.front();
+  id.recordings = ready.recordings;
   id.remarks = ready.remarks;
   id.off_zero = ready.off_zero;
   id.absent_positions = ready.absent_positions;
@@ -253,7 +258,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
     }
   require_memory_for_histories(ready.study, ready.recordings);
   const preparation::RecordedTest test = preparation::recorded_test(ready.study, ready.recordings);
-  id.samples = samples_of(test.timeline, ready.study.readout);
+  id.samples = samples_of(test.timeline, ready.study.readout, test.ends);
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });

@@ -51,13 +51,14 @@ struct SampleOfTest {
   bool slew = false;
   double accelerometer_noise = 0.0;  ///< of their means, 1 sigma [g]
   double gimbal_noise = 0.0;         ///< 1 sigma [rad]
+  std::size_t recording = 1;         ///< its number, from 1
 };
 
 /// Parameters of a platform, estimated from one test by every filter and start of a study.
 struct Identification {
   bool simulated = false;
-  std::optional<TruthDraw> truth;  ///< of a simulated recording
-  Recording recording;             ///< the (first) recording; empty with a loop fed back by filters
+  std::optional<TruthDraw> truth;     ///< of a simulated recording
+  std::vector<Recording> recordings;  ///< as they were used; of a simulation the one
   std::vector<std::string> sources;
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
   std::string off_zero;              ///< a gimbal that reads a constant too much (prepare()); or ""
@@ -71,8 +72,8 @@ struct Identification {
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;
 };
 
-/// What is believed of a filter from its first start: with process noise, which the batch fit does
-/// not model, the EKF.
+/// What is believed of a filter from its first start: where its drift varies, which the batch fit
+/// does not model, the EKF.
 const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first);
 
 /// Chi-square over its degrees of freedom is where no right model has it (FitLimits::misfit).

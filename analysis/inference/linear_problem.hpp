@@ -44,6 +44,7 @@ struct MeasuredRows {
   VecX weight;  ///< shape rows: 1, or less for a row that is not trusted (sigma / weight)
   double acc_sigma = 1.0, gimbal_sigma = 1.0;         ///< declared of one sample [g], [rad]
   bool acc_rounded = false, gimbals_rounded = false;  ///< that is known (Readout)
+  bool driven_at_most = false;                        ///< Readout::gimbal_noise_at_most
   double attitude_sigma = 1.0;                        ///< unit of psi [rad]
 
   Eigen::Index rows() const { return r0.size(); }

@@ -170,6 +170,7 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
   out.gimbal_sigma = test.readout.gimbal_noise;
   out.acc_rounded = test.readout.accelerometers_rounded;
   out.gimbals_rounded = test.readout.gimbals_rounded;
+  out.driven_at_most = test.readout.gimbal_noise_at_most;
   out.attitude_sigma = nominal.initial_attitude;
   const auto rows = static_cast<Eigen::Index>(out.tags.size());
   out.weight = VecX::Ones(rows);

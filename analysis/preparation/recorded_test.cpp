@@ -8,17 +8,33 @@
 namespace drift::preparation {
 namespace {
 
+/// What numbers deviate from becomes their mean over all timelines, whatever their order.
+void refer_to_common_mean(std::vector<Timeline>& timelines) {
+  std::size_t intervals = 0;
+  for (const Timeline& t : timelines) intervals += t.intervals.size();
+  Covariates mean;
+  for (const Timeline& t : timelines)
+    for (std::size_t c = 0; c < covariate_components; ++c)
+      mean.value[c] += t.mean.value[c] *
+                       (static_cast<double>(t.intervals.size()) / static_cast<double>(intervals));
+  for (Timeline& t : timelines) {
+    for (Interval& i : t.intervals)
+      for (std::size_t c = 0; c < covariate_components; ++c) {
+        const double higher = t.mean.value[c] - mean.value[c];
+        i.around0.value[c] += higher;
+        i.around1.value[c] += higher;
+      }
+    t.mean = mean;
+  }
+}
+
 Timeline joined(std::vector<Timeline> timelines) {
+  refer_to_common_mean(timelines);
   Timeline all = std::move(timelines.front());
   for (std::size_t k = 1; k < timelines.size(); ++k) {
     Timeline& next = timelines[k];
     const double shift = all.intervals.back().t1 - next.intervals.front().t0;
     for (Interval& i : next.intervals) {
-      for (std::size_t c = 0; c < covariate_components; ++c) {  // one reference for all
-        const double higher = next.mean.value[c] - all.mean.value[c];
-        i.around0.value[c] += higher;
-        i.around1.value[c] += higher;
-      }
       i.t0 += shift;
       i.t1 += shift;
       i.t_begin += shift;

@@ -7,6 +7,7 @@
 #include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/noise/robust_weights.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "core/physics/stochastic.hpp"
 
 namespace drift::search {
 namespace {
@@ -44,7 +45,23 @@ void lower_outliers(inference::LinearProblem& problem, const inference::NoiseMod
 inference::NoiseModel declared_noise(const FilterSpec& filter) {
   inference::NoiseModel m;
   m.angle_random_walk = filter.noise.angle_random_walk;
-  m.drift_random_walk = filter.noise.drift_random_walk;
+  const TermMask terms = filter.model().terms;
+  const Theta theta = make_layout(filter).theta;
+  Vec3 walk, level;
+  for (int gyro = 0; gyro < 3; ++gyro) {
+    walk[gyro] = drift_walk(filter.noise, terms, theta, gyro);
+    level[gyro] = is_bistable(terms) ? bistable_size(theta, gyro) : 0.0;
+  }
+  const auto over_gyros = [](const Vec3& v) { return v.norm() / std::sqrt(3.0); };
+  m.drift_random_walk = over_gyros(walk);
+  m.markov_drift = over_gyros(level);
+  // Two levels are correlated as a Markov process is: exp(-2 T / dwell).
+  if (m.markov_drift > 0.0) m.markov_tau = 0.5 * bistable_dwell(theta);
+  // One weight of each gyro for all that drives the platform.
+  const double either = m.drift_random_walk + m.markov_drift;
+  if (m.angle_random_walk == 0.0 && either > 0.0 &&
+      (m.drift_random_walk == 0.0 || m.markov_drift == 0.0))
+    m.gyros = (walk + level) / either;
   return m;
 }
 

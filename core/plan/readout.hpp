@@ -13,6 +13,9 @@ struct Readout {
   /// The noise is that of rounding to the steps in which a recording is written: known, whatever
   /// the readings look like from row to row.
   bool accelerometers_rounded = false, gimbals_rounded = false;
+  /// The noise of the gimbals, and what drives the attitude, allow for something that need not be
+  /// as large (the Earth's rate along a North that nobody knows): less of it is no news.
+  bool gimbal_noise_at_most = false;
 };
 
 }  // namespace drift

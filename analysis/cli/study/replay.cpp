@@ -165,7 +165,13 @@ ExitCode replay(const std::string& folder, const RunChoice& choice, const std::s
   if (terminal().details == Terminal::Shown::no)
     show("{}", numbers_text(task.columns(), r, Terminal::Shown::no));
   if (sink && sink->begun()) {
-    show("trace: {} samples in {}\n", sink->rows(), trace);
+    show("trace: {} samples in {}{}\n", sink->rows(), trace,
+         study.monte_carlo.estimator == mc::EstimatorKind::ekf
+             ? ""
+             : fmt::format(", of the EKF from the same starts, sample by sample: the results of "
+                           "this study are of estimator \"{}\", which looks at all samples "
+                           "together, and its last row is not theirs",
+                           key_of(study.monte_carlo.estimator)));
   } else if (sink) {
     say("note: runs of this study have no trace; {} is not written\n", trace);
   }
@@ -197,7 +203,8 @@ Command replay_command() {
     app.add_option("--run", a.choice.run, "run number")->required()->check(whole(0, last_run));
     app.add_option("--point", a.choice.point, "study point of a sweep, from 0")
         ->check(whole(0, last_run));
-    app.add_option("--trace", a.trace, "write the course of the run as CSV")->check(check_path);
+    app.add_option("--trace", a.trace, "write the course of the EKF along the run as CSV")
+        ->check(check_path);
     add_full(app);
   };
   return {"replay", group::studies, "execute one run again, bit for bit",

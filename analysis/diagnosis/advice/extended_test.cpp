@@ -3,15 +3,14 @@
 #include <cmath>
 
 #include "analysis/diagnosis/advice/patched_study.hpp"
+#include "analysis/search/fitted.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace drift::diagnosis {
 namespace {
 
 inference::NoiseModel noise_of(const Diagnosis& d) {
-  inference::NoiseModel m;
-  m.angle_random_walk = d.nominal.noise.angle_random_walk;
-  m.drift_random_walk = d.nominal.noise.drift_random_walk;
+  inference::NoiseModel m = search::declared_noise(d.nominal);
   for (const inference::NoiseFinding& f : d.noise) {
     if (!f.significant || !std::isfinite(f.factor)) continue;
     if (f.component == "gimbal_white") m.gimbal_factor = f.factor;

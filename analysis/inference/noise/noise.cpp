@@ -24,7 +24,7 @@ Mixture declared_mixture(const MarginalLikelihood& rows, const NoiseModel& decla
   Mixture m{declared, {}, 0.0, {}};
   if (count.accelerometer > 0 && !rows.measured().acc_rounded) m.active.push_back({&acc_white});
   if (count.gimbal > 0 && !rows.measured().gimbals_rounded) m.active.push_back({&gimbal_white});
-  for (const NoiseComponent* c : {&angle_walk, &drift_walk})
+  for (const NoiseComponent* c : beside_white)
     if (c->in(declared)) m.active.push_back({c});
   return fitted(rows, std::move(m));
 }
@@ -105,7 +105,8 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
 }
 
 std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declared,
-                                      const RowCounts& count) {
+                                      const MeasuredRows& rows) {
+  const RowCounts count(rows);
   std::vector<NoiseFinding> all;
   for (std::size_t k = 0; k < m.active.size(); ++k) {
     const NoiseComponent& c = *m.active[k].component;
@@ -113,6 +114,8 @@ std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declar
                                             1.0 / std::sqrt(2.0 * static_cast<double>(count.of(c))),
                                             count.of(c))
                             : driving_finding(m, k, declared));
+    if (rows.driven_at_most && &c != &acc_white && all.back().factor < 1.0)
+      all.back().significant = false;
   }
   return all;
 }
@@ -121,7 +124,7 @@ NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
                           const MarginalLikelihood& rows) {
   NoiseEstimate out;
   out.model = m.model;
-  out.findings = findings_of(m, declared, RowCounts(rows.measured()));
+  out.findings = findings_of(m, declared, rows.measured());
   out.log_likelihood2 = m.log_likelihood2;
   out.log_price =
       NoisePrior::log_not_as_declared() + log_price(m, declared, rows.measured().acc_sigma);

@@ -5,6 +5,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
+#include "core/physics/stochastic.hpp"
 
 namespace drift::report {
 namespace {
@@ -26,7 +27,7 @@ std::vector<std::size_t> shown_states(const FilterView& v, const EstimateResult&
 }  // namespace
 
 Section against_prior(const FilterView& v) {
-  const EstimateResult& found = v.id.runs_of(v.summary.filter).front()->batch.estimate;
+  const EstimateResult& found = judged(v);
   if (found.parameters.size() != v.summary.layout.size()) return {};
   DumbbellChart chart;
   chart.title = fmt::format("Estimates of filter {} against {}", v.spec().name,
@@ -57,8 +58,9 @@ Section against_prior(const FilterView& v) {
   return {"",
           {figure_of(
               std::move(chart),
-              fmt::format("Batch estimates from start 1; an axis from -2 to 2 holds 95 % of what "
+              fmt::format("Estimates of {} from start 1; an axis from -2 to 2 holds 95 % of what "
                           "the prior expects.{}",
+                          drift_varies(v.spec()) ? "the EKF" : "the batch fit",
                           others > 0 ? fmt::format(" Of {} parameters less is learned: they are "
                                                    "in the table below.",
                                                    others)

@@ -103,7 +103,9 @@ Panel estimate_panel(const FilterView& v, std::size_t param) {
 
 /// When the positions of one recording begin, but for the first [h].
 std::vector<double> position_begins(const identification::Identification& id) {
-  const Channel *position = id.recording.find("position"), *time = id.recording.find("time");
+  if (id.recordings.empty()) return {};
+  const Recording& recording = id.recordings.front();
+  const Channel *position = recording.find("position"), *time = recording.find("time");
   std::vector<double> begins;
   if (position == nullptr || time == nullptr || id.sources.size() > 1) return begins;
   for (std::size_t i = 1; i < position->values.size(); ++i)

@@ -92,7 +92,7 @@ std::string furthest_apart(const FilterView& v) {
   return fmt::format(" EKF 1 and batch are furthest apart in {}, by {:.2g} sigma; {}.",
                      parameter_key(param), most,
                      batch_counts ? "the batch fit counts: it is iterated, the EKF passes once"
-                                  : "the EKF counts: the batch fit knows no process noise");
+                                  : "the EKF counts: the batch fit knows no drift that varies");
 }
 
 /// Truth, prior, EKF (of so many starts) and batch estimates, learning ratio and start consistency
@@ -104,9 +104,11 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
       fmt::format("Estimates of filter {}", v.spec().name),
       where == On::page ? "< | <unit | prior sigma" : "<",
       fmt::format(
-          "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of the batch "
-          "fit, 1 = nothing learned. {}wrong: by more than 5 sigma of the truth.{}",
+          "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of {}, 1 = "
+          "nothing "
+          "learned. {}wrong: by more than 5 sigma of the truth.{}",
           starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
+          &judged(v) == &runs.front()->ekf ? "EKF 1" : "the batch fit",
           runs.size() < 2 ? ""
                           : fmt::format("ratio: standard deviation between the EKF's {} starts / "
                                         "RMS of their sigmas. ",
@@ -131,7 +133,7 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
       const ParameterEstimate& p = runs[s]->ekf.parameters[k];
       cells.push_back(plus_minus(p.value / unit, p.sigma / unit));
     }
-    const double left = batch.learning_ratio();
+    const double left = judged(v).parameters[k].learning_ratio();
     cells.insert(cells.end(), {plus_minus(batch.value / unit, batch.sigma / unit),
                                Cell(left, left < 0.0005 ? "<.001" : decimal_text(left, 3)),
                                decimals(ratio, 2), verdict_cell(verdict_of(v, k))});

@@ -5,6 +5,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/axis_scale.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/stats/chi_square_band.hpp"
 #include "core/stats/normal.hpp"
 
@@ -58,7 +59,7 @@ std::string start_sentence(const FilterView& v) {
 
 /// The EKF's NIS is not that of a right model, or it is far from the batch fit, which is.
 bool batch_alone_fits(const FilterView& v, const identification::FilterRun& run) {
-  if (v.spec().noise.any() || run.batch.estimate.status != EstimateStatus::ok ||
+  if (drift_varies(v.spec()) || run.batch.estimate.status != EstimateStatus::ok ||
       fit_cell(run.batch.estimate).tone != Tone::plain)
     return false;
   return run.ekf.status != EstimateStatus::ok || fit_cell(run.ekf).tone != Tone::plain ||
@@ -90,8 +91,8 @@ std::string dispute_sentence(const FilterView& v, const identification::FilterRu
   constexpr std::size_t most = 8;
   std::vector<std::string> keys = disputed(run);
   const std::size_t count = keys.size();
-  // With process noise the two answer different questions.
-  if (count == 0 || v.spec().noise.any()) return "";
+  // Of a drift that varies the two say different things.
+  if (count == 0 || drift_varies(v.spec())) return "";
   keys.resize(std::min(count, most));
   return fmt::format(
       "from start 1, EKF and batch fit are outside each other's 95 % interval, or claim sigmas "
@@ -109,9 +110,9 @@ std::vector<std::string> sentences_of(const FilterView& v) {
            run->batch.estimate.status != EstimateStatus::ok;
   });
   std::vector<std::string> said;
-  if (v.spec().noise.any())
+  if (drift_varies(v.spec()))
     said.push_back(
-        "declares process noise, which the batch fit does not model: its sigmas and `left` are too "
+        "has a drift that varies at random, which the batch fit does not model: its sigmas are too "
         "small; use the EKF's.");
   if (failed > 0)
     said.push_back(fmt::format("{} of {} start{} failed or did not converge.", failed, runs.size(),

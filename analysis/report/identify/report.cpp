@@ -1,6 +1,9 @@
 #include "analysis/report/identify/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -65,11 +68,20 @@ std::vector<std::string> write_identification(const Report& report,
     write_identification_netcdf(id, arrays, temporary);
   });
   names.push_back(arrays);
-  if (id.recording.rows() > 0) {
-    write_result({folder, report.command}, "recording.csv", [&](const std::string& temporary) {
-      write_recording_to(id.recording, "recording.csv", temporary);
+  const bool several = id.recordings.size() > 1;
+  const auto name_of = [](std::size_t k) { return fmt::format("recording_{}.csv", k + 1); };
+  // Those of an earlier call that had others.
+  if (several) remove_result({folder, report.command}, "recording.csv");
+  for (std::size_t k = several ? id.recordings.size() : 0;
+       std::filesystem::exists(std::filesystem::path(folder) / name_of(k)); ++k)
+    remove_result({folder, report.command}, name_of(k));
+  for (std::size_t k = 0; k < id.recordings.size(); ++k) {
+    if (id.recordings[k].rows() == 0) continue;
+    const std::string name = several ? name_of(k) : "recording.csv";
+    write_result({folder, report.command}, name, [&](const std::string& temporary) {
+      write_recording_to(id.recordings[k], name, temporary);
     });
-    names.emplace_back("recording.csv");
+    names.push_back(name);
   }
   return names;
 }

@@ -60,7 +60,7 @@ std::string covariance_csv(const std::vector<NamedResult>& results) {
 std::string residuals_csv(const identification::Identification& id) {
   std::string out = "filter,coupling,start,sample,time [s],position,phase";
   for (const char* channel : channel_names) out += fmt::format(",residual_{} [sigma]", channel);
-  out += ",nis,scalars\n";
+  out += ",nis,scalars,recording\n";
   for (const identification::FilterRun& run : id.runs) {
     const identification::FilterSummary& filter = id.summaries[run.filter];
     const std::string head =
@@ -70,7 +70,8 @@ std::string residuals_csv(const identification::Identification& id) {
       fmt::format_to(std::back_inserter(out), "{},{}{},{},{}", head, i, cell(s.t), s.position,
                      s.slew ? 1 : 0);
       for (const double residual : whitened_residuals(run, i)) out += cell(residual);
-      out += cell(run.history.nis[i]) + fmt::format(",{}\n", run.history.scalars[i]);
+      out +=
+          cell(run.history.nis[i]) + fmt::format(",{},{}\n", run.history.scalars[i], s.recording);
     }
   }
   return out;

@@ -233,6 +233,7 @@ class Layout {
     if (halved) {
       const UnknownNorth north = unknown_north(test_.timeline, drift_);
       const double of_half = stillness_.gyro_noise;
+      test_.readout.gimbal_noise_at_most = true;
       test_.readout.gimbal_noise = std::sqrt(0.5 * of_half * of_half + north.variance);
       test_.angle_random_walk = std::hypot(test_.angle_random_walk, std::sqrt(north.walk));
       test_.row = stillness_.half;

@@ -145,8 +145,11 @@ void drop_steady_turns(std::vector<Dwell>& dwells, double slow) {
 }  // namespace
 
 DwellSearch find_dwells(const Signals& signals, const DwellOptions& options) {
-  const auto half =
-      static_cast<std::size_t>(std::max(1.0, std::round(0.5 * options.window / signals.interval)));
+  // Of 10 rows a second half a window is two and a half: not for the last digit of the clock to
+  // say.
+  constexpr double below_a_tie = 1.0 - 1e-5;
+  const auto half = static_cast<std::size_t>(
+      std::max(1.0, std::round(below_a_tie * 0.5 * options.window / signals.interval)));
   const Spread spread = spreads(signals, half);
   const Split gyro = split(spread.gyro), acc = split(spread.acc);
   DwellSearch found{{}, gyro.floor, acc.floor, gyro.threshold, acc.threshold};

@@ -1,5 +1,6 @@
 #include "core/estimate/strapdown/gyrocompass.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +16,17 @@ struct Rests {
   MatX N;
   VecX right;
   Eigen::Index up() const { return N.rows() - 1; }
+
+  /// With the rate about Up as given [rad/s].
+  struct Solution {
+    VecX x;
+    MatX P;
+  };
+  Solution solved(double rate_up) const {
+    const Cholesky llt(N.topLeftCorner(up(), up()));
+    return {llt.solve(VecX(right.head(up()) - N.col(up()).head(up()) * rate_up)),
+            llt.solve(MatX(MatX::Identity(up(), up())))};
+  }
 };
 
 Rests rests_of(const CaseTest& test, double sigma_drift) {
@@ -43,6 +55,26 @@ double azimuth_of(const Eigen::Vector2d& north, const std::vector<double>& assum
   return (c < assumed.size() ? assumed[c] : 0.0) - std::atan2(north[1], north[0]);
 }
 
+/// Whether the prior of the drift moves the North of a chain by more than three standard deviations
+/// of it, and by more than it may if it is right (a chance of 1e-6): two solutions, of which one
+/// has more information, differ by the difference of their covariances (Hausman 1978). A drift a
+/// thousand times its prior's sigma would be left to the Earth to explain.
+bool prior_moves_north(const Rests::Solution& with, const Rests::Solution& without,
+                       Eigen::Index chain) {
+  constexpr double chance = 1e-6;
+  const Eigen::Vector2d moved = with.x.segment<2>(2 * chain) - without.x.segment<2>(2 * chain);
+  const Eigen::Matrix2d P = with.P.block<2, 2>(2 * chain, 2 * chain);
+  if (moved.squaredNorm() <= 9.0 * P.trace() / 2.0) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> apart(
+      without.P.block<2, 2>(2 * chain, 2 * chain) - P);
+  const Eigen::Vector2d along = apart.eigenvectors().transpose() * moved;
+  double chi2 = 0.0;
+  for (int k = 0; k < 2; ++k)
+    if (apart.eigenvalues()[k] > 1e-9 * P.trace())
+      chi2 += along[k] * along[k] / apart.eigenvalues()[k];
+  return chi2 > -2.0 * std::log(chance);
+}
+
 }  // namespace
 
 Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
@@ -50,20 +82,19 @@ Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed
   const Timeline& timeline = test.timeline;
   const Vec3 omega_ie_l = timeline.site.omega_ie_l();
   const double horizontal = omega_ie_l.head<2>().norm();
-  const Rests sums = rests_of(test, sigma_drift);
-  const Eigen::Index n = sums.up();
-  const Cholesky llt(sums.N.topLeftCorner(n, n));
-  const VecX x = llt.solve(VecX(sums.right.head(n) - sums.N.col(n).head(n) * omega_ie_l[2]));
-  const MatX P = llt.solve(MatX(MatX::Identity(n, n)));
+  const auto solved = [&](double prior) { return rests_of(test, prior).solved(omega_ie_l[2]); };
+  constexpr double none = 1000.0;  // times wider a prior says nothing, and equations stay sound
+  const Rests::Solution found = solved(sigma_drift), without_prior = solved(none * sigma_drift);
   Gyrocompass out;
   out.sees_earth = horizontal > 0.0;
   out.sigma = 0.0;
   for (Eigen::Index c = 0; c < timeline.chains; ++c) {
-    const Eigen::Vector2d north = x.segment<2>(2 * c);
-    const double sigma = std::sqrt(P.block<2, 2>(2 * c, 2 * c).trace() / 2.0);
+    const Eigen::Vector2d north = found.x.segment<2>(2 * c);
+    const double sigma = std::sqrt(found.P.block<2, 2>(2 * c, 2 * c).trace() / 2.0);
     out.azimuth.push_back(azimuth_of(north, assumed_azimuth, c));
     out.sigma = std::max(out.sigma, sigma / horizontal);
-    if (std::abs(north.norm() - horizontal) > 3.0 * sigma + 0.1 * horizontal)
+    if (std::abs(north.norm() - horizontal) > 3.0 * sigma + 0.1 * horizontal ||
+        prior_moves_north(found, without_prior, c))
       out.sees_earth = false;
   }
   if (out.sigma > 0.3) out.sees_earth = false;

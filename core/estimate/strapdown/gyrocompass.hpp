@@ -16,7 +16,8 @@ struct Gyrocompass {
 /// Sum of the Earth's rate and a fixed drift of each gyro, least squares on the dwells: the Earth's
 /// horizontal rate of each chain (two numbers; the vertical is the latitude's) and the drift, with
 /// the prior `sigma_drift` of each axis [rad/s]. Attitudes are those of the laid out test.
-/// The Earth is seen where its rate is found within what the site says, and the azimuth to 0.3 rad.
+/// The Earth is seen where its rate is found within what the site says, and the azimuth to 0.3 rad,
+/// unless it takes a prior of the drift that the drift contradicts.
 Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
                         double sigma_drift);
 

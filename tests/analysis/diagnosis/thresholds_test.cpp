@@ -70,7 +70,8 @@ TEST(Thresholds, ParametersFartherFromTheirPriorsThanAnyWouldBeAreSaid) {
   // 0.02 / 40 is the chance of a normal number beyond 3.48 sigma, on either side.
   const auto beyond = [](double sigmas) {
     FilterSpec nominal;
-    BatchResult fit;
+    search::Fitted found;
+    BatchResult& fit = found.fit;
     for (std::size_t k = 0; k < 40; ++k) {
       nominal.active.set(k);
       ParameterEstimate p;
@@ -80,7 +81,7 @@ TEST(Thresholds, ParametersFartherFromTheirPriorsThanAnyWouldBeAreSaid) {
       fit.estimate.parameters.push_back(p);
     }
     fit.estimate.parameters[7].value = 1.0 - 2.0 * sigmas;
-    return beyond_prior(nominal, fit, inference::SearchLimits::alpha);
+    return beyond_prior(nominal, found, inference::SearchLimits::alpha);
   };
   EXPECT_FALSE(beyond(3.47));
   const auto found = beyond(3.49);

@@ -48,6 +48,12 @@ TEST(JoinedCovariates, DeviateFromOneMean) {
   for (std::size_t k = 0; k < rows; ++k)
     EXPECT_NEAR(made.timeline.intervals[rows + k].around1[temperature],
                 made.timeline.intervals[k].around1[temperature] + warmer, 1e-11);
+  // It is that of both, whichever comes first: the drift at the mean is another number else.
+  const RecordedTest turned = recorded_test(study(), {recorded(warmer), recorded()});
+  EXPECT_NEAR(turned.timeline.mean[temperature], made.timeline.mean[temperature], 1e-11);
+  for (std::size_t k = 0; k < rows; ++k)
+    EXPECT_NEAR(turned.timeline.intervals[rows + k].around1[temperature],
+                made.timeline.intervals[k].around1[temperature], 1e-11);
 }
 
 TEST(PlannedTest, HasTheFieldThatWasRecordedWhereNoneIsDeclared) {

@@ -34,6 +34,26 @@ TEST(StrapdownDwells, ShorterThanStaticMinDoNotCount) {
   EXPECT_EQ(find_dwells(signals, {.static_min = 4.0}).dwells.size(), 0u);
 }
 
+TEST(StrapdownDwells, DoNotDependOnWhereTheClockBegins) {
+  // Ten rows a second: a window of half a second is two rows and a half to either side.
+  const StrapdownScript script{.dwells = 8, .rest = 12.0, .turn = 4.0, .interval = 0.1};
+  const Recording recording = strapdown_recording(script, Theta::Zero());
+  const DwellSearch here = find_dwells(signals_of(recording), {});
+  ASSERT_EQ(here.dwells.size(), 8u);
+  for (const double later : {0.1, 8.0, 1000.0, 1.7e9}) {
+    Recording shifted = recording;
+    for (Channel& c : shifted.channels)
+      if (c.name == "time")
+        for (double& t : c.values) t += later;
+    const DwellSearch there = find_dwells(signals_of(shifted), {});
+    ASSERT_EQ(there.dwells.size(), 8u) << later;
+    for (std::size_t d = 0; d < 8; ++d) {
+      EXPECT_EQ(there.dwells[d].first, here.dwells[d].first) << later;
+      EXPECT_EQ(there.dwells[d].last, here.dwells[d].last) << later;
+    }
+  }
+}
+
 TEST(StrapdownDwells, ARecordingAtRestIsOneDwell) {
   const StrapdownScript script{.dwells = 1, .rest = 60.0};
   const Signals signals = signals_of(strapdown_recording(script, Theta::Zero()));

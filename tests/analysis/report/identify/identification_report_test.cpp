@@ -239,9 +239,10 @@ TEST_F(ResultsFolder, HoldsEveryFileAndNothingElse) {
   study.path = (folder_ / "in.toml").string();
   study.text = "schema = 1\n# text\n";
   identification::Identification id = test::identification(study);
-  id.recording.channels = {{"time", unit::s, {60.0, 120.0}},
-                           {"position", unit::one, {1.0, 1.0}},
-                           {"acc_x", unit::g, {0.5, 0.25}}};
+  id.recordings.resize(1);
+  id.recordings.front().channels = {{"time", unit::s, {60.0, 120.0}},
+                                    {"position", unit::one, {1.0, 1.0}},
+                                    {"acc_x", unit::g, {0.5, 0.25}}};
   const auto names = report::write_identification(report::identification_report(study, id), id,
                                                   (folder_ / "a/b").string());
   std::set<std::string> found;

@@ -89,7 +89,8 @@ TEST(ResultTables, ResidualsHaveARowForEverySample) {
   EXPECT_EQ(rows[151][6], "1") << "a slew";
   EXPECT_EQ(rows[1][7], "0.25");
   EXPECT_EQ(rows[1][10], "") << "not measured";
-  EXPECT_EQ(rows[1].back(), "6");
+  EXPECT_EQ(rows[1].end()[-2], "6");
+  EXPECT_EQ(rows[1].back(), "1") << "the only recording";
 }
 
 TEST(ResultTables, AnEstimateWithoutCovarianceLeavesItEmpty) {

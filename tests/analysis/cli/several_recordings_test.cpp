@@ -1,0 +1,79 @@
+// What is written of several recordings of one unit, and of one run of a study.
+#include <filesystem>
+
+#include "tests/support/program.hpp"
+
+namespace drift::several_recordings_test {
+namespace {
+
+using namespace drift::test;
+namespace fs = std::filesystem;
+
+constexpr const char* study = R"(schema = 1
+[site]
+latitude = "45.75 deg"
+[plan]
+preset = "six"
+dwell  = "20 min"
+sample = "4 min"
+mode   = "level"
+[truth]
+coupling = "eq5"
+terms = ["fixed_drift", "g_drift"]
+[[filter]]
+name     = "right"
+coupling = "eq5"
+terms = ["fixed_drift", "g_drift"]
+[monte_carlo]
+runs = 4
+seed = 3
+)";
+
+TEST(SeveralRecordings, AreAllWrittenAndEveryResidualSaysOfWhichItIs) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("s.toml", study), out = folder.file("out");
+  std::string recordings;
+  for (const char* run : {"0", "1"}) {
+    const std::string path = folder.file("r" + std::string(run) + ".csv");
+    ASSERT_EQ(driftscope("simulate " + file + " -o " + path + " --run " + run).code, 0);
+    recordings += " " + path;
+  }
+  const auto identify = [&](const std::string& files) {
+    const Answer a = driftscope("identify " + file + " " + files + " --progress none -o " + out);
+    EXPECT_EQ(a.code, 0) << a.err;
+  };
+  const auto there = [&](const char* name) { return fs::exists(fs::path(out) / name); };
+  identify(folder.file("r0.csv"));
+  EXPECT_TRUE(there("recording.csv"));
+  identify(recordings);
+  EXPECT_FALSE(there("recording.csv")) << "that of the call before";
+  EXPECT_TRUE(there("recording_1.csv") && there("recording_2.csv"));
+  const std::string residuals = text_of(out + "/residuals.csv");
+  EXPECT_NE(residuals.find(",scalars,recording\n"), std::string::npos);
+  EXPECT_NE(residuals.find(",1\n"), std::string::npos);
+  EXPECT_NE(residuals.find(",2\n"), std::string::npos);
+  identify(folder.file("r1.csv"));
+  EXPECT_TRUE(there("recording.csv"));
+  EXPECT_FALSE(there("recording_1.csv") || there("recording_2.csv"));
+}
+
+TEST(TracedRun, SaysWhoseCourseItIs) {
+  const ScratchFolder folder;
+  const std::string file = folder.write("s.toml", study);
+  for (const char* estimator : {"ekf", "iterated"}) {
+    const std::string out = folder.file(estimator), trace = folder.file("t.csv");
+    ASSERT_EQ(driftscope("run " + file + " -o " + out +
+                         " --quiet --set monte_carlo.estimator=" + estimator)
+                  .code,
+              0);
+    const Answer a = driftscope("replay " + out + " --run 1 --trace " + trace);
+    ASSERT_EQ(a.code, 0) << a.err;
+    EXPECT_EQ(a.out.find("of the EKF from the same starts") != std::string::npos,
+              estimator == std::string("iterated"))
+        << a.out;
+    fs::remove(trace);
+  }
+}
+
+}  // namespace
+}  // namespace drift::several_recordings_test
