@@ -37,9 +37,9 @@ struct Reading {
 };
 
 /// A worker that is stopped as it begins leaves the manifest alone, which has the study's text too.
-Reading read_frozen(const std::string& folder, const mc::Manifest& manifest, std::uint64_t runs) {
+Reading read_frozen(const std::string& folder, const mc::Manifest& manifest,
+                    const mc::Overrides& asked) {
   const std::string path = folder + "/study.toml";
-  const mc::Overrides asked{{"monte_carlo.runs", std::to_string(runs)}};
   std::error_code unknown;
   if (::faccessat(AT_FDCWD, path.c_str(), R_OK, AT_EACCESS) != 0 && errno != ENOENT)
     throw_cannot_read(path, std::strerror(errno));  // which says nothing of what it holds
@@ -75,7 +75,8 @@ mc::StudyIdentity identity_of(const mc::Study& study) {
 FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reader,
                          const StudyProgram& program) {
   const std::uint64_t runs = std::max<std::uint64_t>(reader.runs(), 1);
-  const Reading found = read_frozen(folder, reader.manifest(), runs);
+  const Reading found = read_frozen(folder, reader.manifest(),
+                                    mc::Overrides{{"monte_carlo.runs", std::to_string(runs)}});
   if (!found.study)
     throw InputError(
         ExitCode::store,
@@ -89,7 +90,7 @@ FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reade
 }
 
 std::string mend_study(const std::string& folder, const mc::Manifest& manifest) {
-  if (read_frozen(folder, manifest, 1).study) return {};
+  if (read_frozen(folder, manifest, {}).study) return {};
   return mc::restore_study(folder, manifest.study);
 }
 

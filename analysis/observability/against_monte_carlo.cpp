@@ -17,7 +17,7 @@ constexpr double tolerance = 0.1;  // of the promise: what linearisation may cos
 constexpr double prior_excess = std::numbers::sqrt2 * (1.0 + tolerance);
 
 /// sigma_ratio: the sigma that the filter reports over the prior's.
-void judge(ErrorComparison& c, TruthIs truth, double sigma_ratio) {
+void judge(ErrorComparison& c, TruthIs truth, ProcessNoiseIs noise, double sigma_ratio) {
   const double promise = c.learning_ratio;
   const bool holds = c.low <= promise * (1.0 + tolerance) && c.high >= promise * (1.0 - tolerance);
   const bool prior_rules = promise * promise >= 0.5;
@@ -29,6 +29,13 @@ void judge(ErrorComparison& c, TruthIs truth, double sigma_ratio) {
         100.0 * promise);
   } else if (holds) {
     c.verdict = ErrorVerdict::agree;
+  } else if (noise == ProcessNoiseIs::there &&
+             (truth == TruthIs::the_model || c.rmse_ratio <= sigma_ratio)) {
+    c.verdict = ErrorVerdict::process_noise;
+    c.reason = fmt::format(
+        "{:.3g} times the promised sigma: there is process noise, which the promise does not know "
+        "of; it is a lower bound",
+        c.rmse_ratio / promise);
   } else if (c.low <= sigma_ratio * (1.0 + tolerance) &&
              c.high >= sigma_ratio * (1.0 - tolerance)) {
     c.verdict = ErrorVerdict::nonlinear;
@@ -60,6 +67,8 @@ std::string_view text_of(ErrorVerdict verdict) {
       return "nonlinear";
     case ErrorVerdict::wrong_model:
       return "wrong model";
+    case ErrorVerdict::process_noise:
+      return "process noise";
     case ErrorVerdict::prior_dominated:
       return "prior dominated";
   }
@@ -73,7 +82,7 @@ std::size_t MonteCarloComparison::count(ErrorVerdict verdict) const {
 
 MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
                                               std::span<const MonteCarloError> errors,
-                                              TruthIs truth) {
+                                              TruthIs truth, ProcessNoiseIs noise) {
   MonteCarloComparison out;
   for (const std::size_t state : ranking.order) {
     const ParameterRank& p = ranking.parameters[state];
@@ -85,7 +94,7 @@ MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
     c.rmse_ratio = error->rmse / p.prior_sigma;
     c.low = std::isfinite(error->low) ? error->low / p.prior_sigma : c.rmse_ratio;
     c.high = std::isfinite(error->high) ? error->high / p.prior_sigma : c.rmse_ratio;
-    judge(c, truth, error->sigma / p.prior_sigma);
+    judge(c, truth, noise, error->sigma / p.prior_sigma);
     out.parameters.push_back(std::move(c));
   }
   const auto n = static_cast<Eigen::Index>(out.parameters.size());

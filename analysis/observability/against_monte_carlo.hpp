@@ -19,16 +19,20 @@ struct MonteCarloError {
 /// Whether the data of the study came from the model that is ranked.
 enum class TruthIs { the_model, another_model };
 
+/// Whether the truth or the filter have process noise, which the information does not know.
+enum class ProcessNoiseIs { nowhere, there };
+
 /// How an error of the study stands to what the information promises.
 enum class ErrorVerdict {
-  agree,        ///< the interval holds the promise (within 10 %)
-  nonlinear,    ///< another error, which the filter knows of, or of the same model: levers depend
-                ///< on where the truth lies, or the estimator is not efficient
-  wrong_model,  ///< another model made the data, and the error is beyond what the filter claims
+  agree,          ///< the interval holds the promise (within 10 %)
+  nonlinear,      ///< another error, which the filter knows of, or of the same model: levers depend
+                  ///< on where the truth lies, or the estimator is not efficient
+  wrong_model,    ///< another model made the data, and the error is beyond what the filter claims
+  process_noise,  ///< another error, where truth or filter have noise that the information lacks
   prior_dominated,  ///< the prior says at least as much as the data: the error shows how truth and
                     ///< starts were drawn
 };
-/// "agree", "nonlinear", "wrong model", "prior dominated".
+/// "agree", "nonlinear", "wrong model", "process noise", "prior dominated".
 std::string_view text_of(ErrorVerdict verdict);
 
 /// One parameter, by both methods.
@@ -52,6 +56,7 @@ struct MonteCarloComparison {
 /// are left out, as are those whose RMSE is not finite.
 MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
                                               std::span<const MonteCarloError> errors,
-                                              TruthIs truth);
+                                              TruthIs truth,
+                                              ProcessNoiseIs noise = ProcessNoiseIs::nowhere);
 
 }  // namespace drift::observability

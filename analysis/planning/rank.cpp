@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/check.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/sim/truth.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -40,7 +41,8 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
     if (known != groups.end()) {
       known->filters += ", " + filter.name;
       for (ModelRanking& m : known->models)
-        m.of_the_file |= m.model.spec.coupling == filter.coupling;
+        if (m.model.spec.coupling == filter.coupling)
+          m.filters += (m.filters.empty() ? "" : ", ") + filter.name;
       continue;
     }
     RankingGroup group{filter.name, {}};
@@ -50,7 +52,7 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
       ModelRanking m;
       m.model = observability::ranked_model(spec, study.has_truth ? &study.truth : nullptr,
                                             study.site, study.readout, study.environment);
-      m.of_the_file = coupling == filter.coupling;
+      if (coupling == filter.coupling) m.filters = filter.name;
       group.models.push_back(std::move(m));
     };
     add(filter.coupling);
@@ -64,7 +66,7 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
     groups.push_back(std::move(group));
   }
   for (RankingGroup& g : groups)  // of two filters, eq. (5) first
-    if (g.models.size() == 2 && g.models[0].of_the_file && g.models[1].of_the_file &&
+    if (g.models.size() == 2 && g.models[0].of_the_file() && g.models[1].of_the_file() &&
         g.models[0].model.spec.coupling == Coupling::eq6)
       std::swap(g.models[0], g.models[1]);
   return groups;
@@ -72,7 +74,7 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
 
 /// Where parameters multiply (misalignment times drift), the mean of the prior may be a special
 /// point: the information at truths drawn from it says so.
-std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study,
+std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study, const TestPlan& plan,
                                         const observability::RankedModel& model) {
   constexpr std::uint64_t draws = 4;
   std::vector<Elsewhere> ranges(make_layout(model.spec).size(),
@@ -81,7 +83,7 @@ std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study,
     observability::RankedModel drawn = model;
     drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
     const observability::Ranking r =
-        observability::rank_parameters(observability::linearise(study.plan, drawn));
+        observability::rank_parameters(observability::linearise(plan, drawn));
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       ranges[i].low = std::min(ranges[i].low, r.learning_ratio(i));
       ranges[i].high = std::max(ranges[i].high, r.learning_ratio(i));
@@ -98,7 +100,7 @@ void rank_model(const mc::Study& study, const RankOptions& options, ModelRanking
   m.course = observability::information_course(plan);
   m.pwcs = observability::pwcs_rank(study.plan, study.site, m.model.spec, study.readout);
   m.drivers = observability::drivers_of(plan, study.plan, m.model);
-  m.elsewhere = ranges_elsewhere(study, m.model);
+  m.elsewhere = ranges_elsewhere(study, study.plan, m.model);
   m.methods = observability::compare_methods({m.ranking, m.pwcs, plan, m.course, study.plan});
   duration = plan.duration;
   m.bins = std::move(plan.bins);
@@ -143,7 +145,7 @@ PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
   std::vector<ModelRanking*> models;
   for (RankingGroup& g : out.groups)
     for (ModelRanking& m : g.models) models.push_back(&m);
-  for (const FilterSpec& f : study.filters) out.process_noise |= f.noise.any();
+  for (const FilterSpec& f : study.filters) out.process_noise |= has_process_noise(f);
 
   ModelRanking& first = *models.front();
   Criterion criterion;
@@ -166,6 +168,7 @@ PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
                                             options.threads, progress);
     better.after = observability::rank_parameters(
         observability::linearise(better.improvement.plan, first.model));
+    better.elsewhere = ranges_elsewhere(study, better.improvement.plan, first.model);
     out.better = std::move(better);
   }
   return out;

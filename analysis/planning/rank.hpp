@@ -14,13 +14,17 @@ namespace drift::planning {
 
 /// Learning ratios of a parameter at other points than the one the plan is linearised at.
 struct Elsewhere {
+  static constexpr double factor = 1.5;  ///< between ratios: worth a line
   double low = 0.0, high = 0.0;
+  bool other_than(double here) const { return high >= factor * here || low <= here / factor; }
 };
 
 /// The ranking of a plan under one model, by every method.
 struct ModelRanking {
   observability::RankedModel model;
-  bool of_the_file = true;  ///< false: the other of eqs. (5) and (6), put beside a filter
+  std::string filters;  ///< names in the file, "corrected, legacy"; empty: the other of eqs. (5)
+                        ///< and (6), put beside a filter
+  bool of_the_file() const { return !filters.empty(); }
   observability::Ranking ranking;
   std::vector<observability::TimeBin> bins;  ///< without their rows
   observability::InformationCourse course;
@@ -32,7 +36,7 @@ struct ModelRanking {
 
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.
 struct RankingGroup {
-  std::string filters;               ///< names in the file, "corrected, legacy"
+  std::string filters;               ///< names in the file, of all
   std::vector<ModelRanking> models;  ///< the filter's own (of several: eq. (5)) first
 
   const Layout& layout() const { return models.front().ranking.layout; }
@@ -44,7 +48,8 @@ Criterion criterion_of(const mc::Study& study, const std::string& name);
 /// A better plan for the first model of the first group.
 struct PlanImprovement {
   Improvement improvement;
-  observability::Ranking after;  ///< of the improved plan
+  observability::Ranking after;      ///< of the improved plan
+  std::vector<Elsewhere> elsewhere;  ///< of its states, at the truths of ModelRanking::elsewhere
 };
 
 /// Everything `driftscope rank` says.

@@ -168,11 +168,16 @@ class RunsGroup {
   struct Statistics {
     Moments moments;
     double min = std::numeric_limits<double>::infinity(), max = -min;
+    /// Where one filter diverges, what the others found counts: its own numbers are missing.
     void add(const Block& b, std::size_t c, std::size_t n) {
-      moments.merge(mc::moments(b, c, n));
-      for (std::size_t r = 0; r < b.status.size(); ++r)
-        if (const double v = b.rows[r * n + c]; b.status[r] == RunStatus::ok && std::isfinite(v))
-          min = std::min(min, v), max = std::max(max, v);
+      for (std::size_t r = 0; r < b.status.size(); ++r) {
+        const double v = b.rows[r * n + c];
+        const RunStatus s = b.status[r];
+        if (s != RunStatus::ok && s != RunStatus::filter_diverged) continue;
+        if (!std::isfinite(v)) continue;
+        moments.add(v);
+        min = std::min(min, v), max = std::max(max, v);
+      }
     }
   };
 

@@ -14,7 +14,8 @@ namespace drift::mc {
 ///
 ///   /             attributes: provenance
 ///   /runs         one row per run: point, run, status, and a dataset per column
-///   /summary      point x column, runs that are ok: n, mean, sd, min, max
+///   /summary      point x column: n, mean, sd, min, max over the runs that are ok, and what other
+///                 filters found in those in which one diverged
 ///   /failures     one row per failed run: time and cause; not there if none failed
 /// and given the study points whose rows are StudyColumns
 ///   /points       one row per study point: what was swept; not there if nothing was

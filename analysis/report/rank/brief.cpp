@@ -25,6 +25,15 @@ std::string seen_text(const observability::Ranking& r) {
                         listed_up_to(unseen, most)));
 }
 
+/// What a sigma is where the truth lies elsewhere, if that is something else.
+std::string range_text(const observability::Ranking& r, std::size_t k,
+                       const planning::Elsewhere& e) {
+  if (!e.other_than(r.learning_ratio(k))) return "";
+  const double prior = r.parameters[k].prior_sigma / unit_of(r.parameters[k].param);
+  return fmt::format(" ({} to {} at four truths drawn from the priors)", number_text(prior * e.low),
+                     number_text(prior * e.high));
+}
+
 /// What the proposed positions do to the parameter that gains most, or that was asked for.
 std::string gain_text(const planning::PlanRanking& rank) {
   const planning::Improvement& better = rank.better->improvement;
@@ -44,10 +53,11 @@ std::string gain_text(const planning::PlanRanking& rank) {
   std::vector<std::string> parts;
   for (const std::size_t k : shown) {
     const double unit = unit_of(before.parameters[k].param);
-    parts.push_back(fmt::format("{} from {} to {} {}", parameter_key(before.layout, k),
+    parts.push_back(fmt::format("{} from {} to {} {}{}", parameter_key(before.layout, k),
                                 number_text(before.parameters[k].posterior_sigma / unit),
                                 number_text(after.parameters[k].posterior_sigma / unit),
-                                parameter_unit(before.parameters[k].param)));
+                                parameter_unit(before.parameters[k].param),
+                                range_text(after, k, rank.better->elsewhere[k])));
   }
   using Kind = planning::Criterion::Kind;
   const std::string judged = better.criterion.kind == Kind::A ? "over all parameters (criterion A)"
@@ -65,18 +75,23 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
   InBrief brief;
   brief.tone = Tone::good;
   if (rank.better) brief.more.add(Weight::note, gain_text(rank));
-  for (const planning::RankingGroup& g : rank.groups) {
-    const planning::ModelRanking& m = g.models.front();
-    const std::string said = fmt::format("{} (filter {}): {}", key_of(m.model.spec.coupling),
-                                         g.filters, seen_text(m.ranking));
-    if (brief.verdict.empty())
-      brief.verdict = "Seen under " + said;
-    else
-      brief.more.add(Weight::note, "Under " + said);
-    if (std::ranges::any_of(m.ranking.parameters,
-                            [](const auto& p) { return p.learning_ratio() > hardly_known; }))
-      brief.tone = Tone::doubtful;
-  }
+  for (const planning::RankingGroup& g : rank.groups)
+    for (const planning::ModelRanking& m : g.models) {
+      if (!m.of_the_file()) continue;
+      const std::string said = fmt::format("{} (filter {}): {}", key_of(m.model.spec.coupling),
+                                           m.filters, seen_text(m.ranking));
+      if (brief.verdict.empty())
+        brief.verdict = "Seen under " + said;
+      else
+        brief.more.add(Weight::note, "Under " + said);
+      if (std::ranges::any_of(m.ranking.parameters,
+                              [](const auto& p) { return p.learning_ratio() > hardly_known; }))
+        brief.tone = Tone::doubtful;
+    }
+  if (rank.process_noise)
+    brief.more.add(Weight::note,
+                   "A filter has process noise, which this information does not know: what is "
+                   "said here is the least that is left.");
   if (rank.better) {
     brief.next =
         study.plan.preset.empty()

@@ -36,7 +36,6 @@ Section equations(const RankedGroup& v) {
 
 /// Parameters whose sigma depends on where the truth lies.
 Section elsewhere(const RankedGroup& v) {
-  constexpr double factor = 1.5;
   Section section;
   for (const planning::ModelRanking& m : v.group.models) {
     Table t(
@@ -47,12 +46,13 @@ Section elsewhere(const RankedGroup& v) {
     for (const std::size_t k : m.ranking.order) {
       const double here = m.ranking.learning_ratio(k);
       const planning::Elsewhere& e = m.elsewhere[k];
-      if (e.high < factor * here && e.low > here / factor) continue;
+      if (!e.other_than(here)) continue;
       t.add({parameter_cell(m.ranking.layout.params[k]), here, span_cell(e.low, e.high)});
     }
     if (t.rows.empty())
-      t.note = fmt::format(
-          "No sigma changes by more than a factor {} at truths drawn from the priors.", factor);
+      t.note =
+          fmt::format("No sigma changes by more than a factor {} at truths drawn from the priors.",
+                      planning::Elsewhere::factor);
     section.add({t});
   }
   return section;

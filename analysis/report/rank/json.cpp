@@ -70,7 +70,7 @@ Json course_json(const mc::Study& study, const planning::ModelRanking& m) {
 Json model_json(const mc::Study& study, const planning::ModelRanking& m) {
   Json out;
   out["coupling"] = key_of(m.model.spec.coupling);
-  out["of_the_file"] = m.of_the_file;
+  out["of_the_file"] = m.of_the_file();
   out["terms"] = term_keys(m.model.spec.model().terms);
   out["bits"] = m.ranking.bits;
   out["parameters"] = rows_json(ranking_table(m, nullptr));
@@ -94,10 +94,13 @@ Json improvement_json(const mc::Study& study, const planning::PlanRanking& rank)
   for (std::size_t k = 0; k < before.layout.size(); ++k) {
     const std::size_t param = before.layout.params[k];
     const double unit = unit_of(param);
+    const double prior = before.parameters[k].prior_sigma / unit;
+    const planning::Elsewhere& elsewhere = rank.better->elsewhere[k];
     sigmas[parameter_key(param)] = {
         {"unit", parameter_unit(param)},
         {"before", before.parameters[k].posterior_sigma / unit},
-        {"after", rank.better->after.parameters[k].posterior_sigma / unit}};
+        {"after", rank.better->after.parameters[k].posterior_sigma / unit},
+        {"after_elsewhere", Json::array({prior * elsewhere.low, prior * elsewhere.high})}};
   }
   return {{"criterion", better.criterion.text},
           {"coupling", equation_of_plan(rank)},

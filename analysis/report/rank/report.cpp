@@ -35,9 +35,9 @@ std::string headline_of(const planning::RankingGroup& group, const planning::Mod
   std::string text = fmt::format(
       "{} ({} {}): {:.1f} bits; {} of {} parameters end below half their prior sigma; {} "
       "directions are better known from the data than from the prior, {} {} not seen at all.",
-      key_of(m.model.spec.coupling), m.of_the_file ? "filter" : "beside filter", group.filters,
-      r.bits, known, r.parameters.size(), better, r.exact.size(),
-      r.exact.size() == 1 ? "is" : "are");
+      key_of(m.model.spec.coupling), m.of_the_file() ? "filter" : "beside filter",
+      m.of_the_file() ? m.filters : group.filters, r.bits, known, r.parameters.size(), better,
+      r.exact.size(), r.exact.size() == 1 ? "is" : "are");
   if (r.held_by_attitude.size() > r.exact.size())
     text += fmt::format(" {} more only because the attitude at the cagings has a prior.",
                         r.held_by_attitude.size() - r.exact.size());

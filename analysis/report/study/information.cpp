@@ -6,6 +6,7 @@
 #include "analysis/report/rank/report.hpp"
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/figure.hpp"
+#include "core/physics/stochastic.hpp"
 
 namespace drift::report {
 namespace {
@@ -79,7 +80,10 @@ Section information_section(const StudyResults& results, int threads) {
       const auto comparison = observability::compare_with_monte_carlo(
           model->ranking, errors_of(statistics_of(results, {p, f})),
           matched(results, {p, f}) ? observability::TruthIs::the_model
-                                   : observability::TruthIs::another_model);
+                                   : observability::TruthIs::another_model,
+          has_process_noise(study.truth) || has_process_noise(study.filters[f])
+              ? observability::ProcessNoiseIs::there
+              : observability::ProcessNoiseIs::nowhere);
       const std::string condition = condition_of(results.points[p]);
       section.add({comparison_table(comparison,
                                     fmt::format("Truth {}, filter {}{}{}",

@@ -25,7 +25,12 @@ bool matched(const StudyResults& results, const Pair& pair) {
   const Coupling filter = statistics_of(results, pair).columns().coupling;
   if (truth.coupling == Coupling::servo)
     return filter == Coupling::eq6 && truth.servo.float_restraint == 0.0;
-  return filter == truth.coupling || filter == Coupling::lambda;
+  if (filter == truth.coupling || filter == Coupling::lambda) return true;
+  // A loop that compensates nothing is eq. (5).
+  if (truth.coupling == Coupling::compensated)
+    return filter == Coupling::eq5 && truth.loop == LoopEstimate::given &&
+           truth.theta_loop.isZero(0.0);
+  return truth.coupling == Coupling::eq5 && filter == Coupling::compensated;
 }
 
 std::string condition_of(const mc::StudyPoint& point) {

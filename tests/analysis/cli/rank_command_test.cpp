@@ -53,6 +53,9 @@ TEST(RankCommand, RanksBothEquationsSideBySide) {
   for (const char* part : {"Ranking for corrected, legacy", "eq5", "eq6",
                            "D_F_x - D_II_x - D_OO_x - D_SS_x", "PWCS: rank 36 of 63"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << "\n" << text.out;
+  const Answer brief = driftscope("rank '" + file + "'");
+  for (const char* part : {"Seen under eq5 (filter corrected)", "Under eq6 (filter legacy)"})
+    EXPECT_NE(brief.out.find(part), std::string::npos) << part << "\n" << brief.out;
   const Json json = parsed(driftscope("rank '" + file + "' --json"));
   ASSERT_EQ(json["filters"].size(), 1u);  // same terms and priors: one group
   ASSERT_EQ(json["filters"][0]["models"].size(), 2u);

@@ -225,6 +225,20 @@ TEST(StoreCommands, ADamagedStudyFileIsMendedByTheSameCommandAndKept) {
   }
 }
 
+/// Its runs are part of what it is: read with one run it was another study, and called damaged.
+TEST(StoreCommands, AStudyFileOfALatinHypercubeIsNotTakenForDamaged) {
+  const ScratchFolder scratch;
+  const std::string config = study_file(scratch, ""), out = scratch.file("out");
+  const std::string design = " --set monte_carlo.design=latin_hypercube -o " + out;
+  const Answer run = test::synthetic("run " + config + design);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Answer again = test::synthetic("run " + config + design);
+  EXPECT_EQ(again.out, run.out) << again.err;
+  for (const Answer& answer : {run, again})
+    EXPECT_EQ(answer.err.find("was not that of the study"), std::string::npos) << answer.err;
+  EXPECT_FALSE(fs::exists(out + "/study.toml.damaged-1"));
+}
+
 /// As a worker leaves it that is stopped between its manifest and its study file.
 TEST(StoreCommands, WithoutItsStudyFileTheManifestSaysWhatTheStudyIs) {
   const ScratchFolder scratch;

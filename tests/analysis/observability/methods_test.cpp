@@ -124,6 +124,19 @@ TEST(AgainstMonteCarlo, VerdictsSayWhatTheErrorMeans) {
             nonlinear);
 }
 
+TEST(AgainstMonteCarlo, ProcessNoiseIsNotTakenForNonlinearity) {
+  const observability::Ranking r = ranking_of({3.0, 3.0});
+  const std::vector<observability::MonteCarloError> errors{{0, 3.0, 2.5, 3.5, 3.0},
+                                                           {1, 3.0, 2.5, 3.5, 0.5}};
+  const auto c = observability::compare_with_monte_carlo(
+      r, errors, observability::TruthIs::the_model, observability::ProcessNoiseIs::there);
+  EXPECT_EQ(c.count(observability::ErrorVerdict::nonlinear), 0u);
+  EXPECT_GT(c.count(observability::ErrorVerdict::process_noise), 0u);
+  const auto wrong = observability::compare_with_monte_carlo(
+      r, errors, observability::TruthIs::another_model, observability::ProcessNoiseIs::there);
+  EXPECT_EQ(wrong.parameters[1].verdict, observability::ErrorVerdict::wrong_model);
+}
+
 TEST(AgainstMonteCarlo, AnErrorBeyondWhatThePriorCanExplainIsNotDominatedByIt) {
   const auto c = observability::compare_with_monte_carlo(
       ranking_of({0.0}), std::vector<observability::MonteCarloError>{{0, 20.0, 18.0, 22.0, 2.0}},

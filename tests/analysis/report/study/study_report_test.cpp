@@ -111,6 +111,18 @@ TEST(StudyReport, RefusesAHeadlineOverTooManyFailures) {
             std::string::npos);
 }
 
+TEST(StudyReport, ALoopThatCompensatesNothingIsEquation5) {
+  std::string text = small_study;
+  const std::string wrong = "coupling = \"eq6\"";
+  const auto at = text.rfind(wrong);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, wrong.size(), "coupling = \"compensated\"");
+  const report::StudyResults results = results_of(text, 2);
+  EXPECT_EQ(results.study.truth.coupling, Coupling::eq5);
+  ASSERT_EQ(results.statistics[0].filters()[1].columns().coupling, Coupling::compensated);
+  EXPECT_TRUE(report::matched(results, {0, 1}));
+}
+
 TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
   const auto json = nlohmann::json::parse(report::study_report(swept()).document.second);
   ASSERT_EQ(json["points"].size(), 4u);
