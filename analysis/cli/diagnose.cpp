@@ -45,6 +45,14 @@ void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
   show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }
 
+/// `--full` has it among its remarks.
+void say_what_was_left_out(const diagnosis::Diagnosis& found) {
+  if (terminal().details == Terminal::Shown::yes) return;
+  for (const diagnosis::Remark& remark : found.remarks)
+    if (const auto* input = std::get_if<diagnosis::remark::Input>(&remark))
+      say("note: {}\n", input->text);
+}
+
 ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
                        const std::vector<std::string>& paths, const std::string& folder) {
   if (paths.size() != 1)
@@ -60,6 +68,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
   options.profiles = diagnosis::Profiles::of_the_causes;
   const strapdown::CaseIdentification id = strapdown::identify_case(study, recordings.front());
   const diagnosis::Diagnosis found = strapdown::diagnose_case(study, id, options);
+  say_what_was_left_out(found);
   const report::Provenance provenance = report::provenance_of(study.path, paths);
   const TextFile identification{
       "identification.json",
@@ -87,10 +96,7 @@ ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& stu
     options.asked = *advise;
   }
   const diagnosis::Diagnosis found = diagnosis::diagnose_recordings(study, recordings, options);
-  if (terminal().details == Terminal::Shown::no)  // --full has them among its remarks
-    for (const diagnosis::Remark& remark : found.remarks)
-      if (const auto* input = std::get_if<diagnosis::remark::Input>(&remark))
-        say("note: {}\n", input->text);
+  say_what_was_left_out(found);
   finish(study, found, {paths, "", report::provenance_of(study.path, paths), {}}, recordings,
          folder);
   return ExitCode::ok;

@@ -24,9 +24,10 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
                                  "given. Name one on the command line",
                                  paths.size()));
   const auto recordings = read_recordings(study, paths);
-  const report::Report said = with_provenance(
-      report::case_report(study, strapdown::identify_case(study, recordings.front())),
-      report::provenance_of(study.path, paths));
+  const strapdown::CaseIdentification id = strapdown::identify_case(study, recordings.front());
+  for (const std::string& remark : id.study.remarks) say("note: {}\n", remark);
+  const report::Report said =
+      with_provenance(report::case_report(study, id), report::provenance_of(study.path, paths));
   Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
   if (!folder.empty()) {
     const ResultsTurn turn({folder, "identify"});

@@ -8,8 +8,18 @@
 
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/reading_step.hpp"
 
 namespace drift::preparation {
+namespace {
+
+bool is_of_a_sensor(std::string_view channel) {
+  for (const ChannelTriple& t : {accelerometer_channels, gimbal_channels, gyro_channels})
+    if (std::ranges::find(t.names, channel) != t.names.end()) return true;
+  return false;
+}
+
+}  // namespace
 
 void leave_out_held_rows(Recording& r, std::vector<std::string>& remarks) {
   std::vector<Channel*> sensors;
@@ -48,6 +58,45 @@ void leave_out_held_rows(Recording& r, std::vector<std::string>& remarks) {
                   r.lines[held.front()]));
   for (Channel* c : sensors)
     for (const std::size_t i : held) c->values[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
+  for (Channel& c : r.channels) {
+    if (!is_of_a_sensor(c.name)) continue;
+    struct Run {
+      std::size_t first, end;
+    };
+    std::vector<Run> runs;
+    for (std::size_t i = 0; i < c.values.size();) {
+      std::size_t end = i + 1;
+      while (end < c.values.size() && c.values[end] == c.values[i]) ++end;
+      if (std::isfinite(c.values[i])) runs.push_back({i, end});
+      i = end;
+    }
+    if (reading_step(c, r.find("position"))) continue;  // coarse, as the quality card says
+    std::vector<std::size_t> lengths;
+    for (const Run& run : runs) lengths.push_back(run.end - run.first);
+    if (lengths.empty()) continue;
+    // The median over runs: a coarse readout that moves in steps has long runs throughout.
+    std::ranges::nth_element(lengths,
+                             lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));
+    const std::size_t usual = runs.size() < 3 ? 1 : lengths[lengths.size() / 2];
+    std::size_t lost = 0, line = 0;
+    for (const Run& run : runs) {
+      if (run.end - run.first < std::max(RecordingLimits::stuck, RecordingLimits::stuck * usual))
+        continue;
+      if (lost == 0) line = r.lines[run.first];
+      lost += run.end - run.first;
+      std::fill(c.values.begin() + static_cast<std::ptrdiff_t>(run.first),
+                c.values.begin() + static_cast<std::ptrdiff_t>(run.end),
+                std::numeric_limits<double>::quiet_NaN());
+    }
+    if (lost > 0)
+      remarks.push_back(fmt::format(
+          "{}: {} stands still for {} samples, from line {} on: taken as a stuck sensor, or one at "
+          "the end of its range, and left out",
+          r.source.empty() ? "recording" : r.source, c.name, lost, line));
+  }
 }
 
 }  // namespace drift::preparation

@@ -26,7 +26,6 @@
 #include "core/plan/shifted_numbers.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/rows/join_rows.hpp"
-#include "core/recording/rows/reading_step.hpp"
 #include "core/recording/rows/reduce.hpp"
 #include "core/sim/measurements.hpp"
 
@@ -38,46 +37,6 @@ constexpr const char* sensors[] = {"acc_x",        "acc_y",         "acc_z",
 
 std::string name_of(const Recording& r) {
   return r.source.empty() ? "recording" : r.source;
-}
-
-/// Runs of equal values, far longer than the channel's usual ones, become NaN.
-void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
-  for (Channel& c : r.channels) {
-    if (std::ranges::find(sensors, c.name) == std::end(sensors)) continue;
-    struct Run {
-      std::size_t first, end;
-    };
-    std::vector<Run> runs;
-    for (std::size_t i = 0; i < c.values.size();) {
-      std::size_t end = i + 1;
-      while (end < c.values.size() && c.values[end] == c.values[i]) ++end;
-      if (std::isfinite(c.values[i])) runs.push_back({i, end});
-      i = end;
-    }
-    if (reading_step(c, r.find("position"))) continue;  // coarse, as the quality card says
-    std::vector<std::size_t> lengths;
-    for (const Run& run : runs) lengths.push_back(run.end - run.first);
-    if (lengths.empty()) continue;
-    // The median over runs: a coarse readout that moves in steps has long runs throughout.
-    std::ranges::nth_element(lengths,
-                             lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));
-    const std::size_t usual = runs.size() < 3 ? 1 : lengths[lengths.size() / 2];
-    std::size_t lost = 0, line = 0;
-    for (const Run& run : runs) {
-      if (run.end - run.first < std::max(RecordingLimits::stuck, RecordingLimits::stuck * usual))
-        continue;
-      if (lost == 0) line = r.lines[run.first];
-      lost += run.end - run.first;
-      std::fill(c.values.begin() + static_cast<std::ptrdiff_t>(run.first),
-                c.values.begin() + static_cast<std::ptrdiff_t>(run.end),
-                std::numeric_limits<double>::quiet_NaN());
-    }
-    if (lost > 0)
-      remarks.push_back(fmt::format(
-          "{}: {} stands still for {} samples, from line {} on: taken as a stuck sensor and "
-          "left out",
-          name_of(r), c.name, lost, line));
-  }
 }
 
 void remark_missing(const Recording& r, const Readout& readout, std::vector<std::string>& remarks) {

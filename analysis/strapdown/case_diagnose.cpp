@@ -118,6 +118,8 @@ std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIden
 }
 
 void remark(Diagnosis& d, const CaseIdentification& id) {
+  for (const std::string& text : id.study.remarks)
+    d.remarks.emplace_back(diagnosis::remark::Input{text});
   d.remarks.emplace_back(diagnosis::remark::NoDeclaredNoise{});
   for (const Unobservable& u : id.fits.front().unobservable)
     d.remarks.emplace_back(diagnosis::remark::NotObservable{u.what, u.reason});

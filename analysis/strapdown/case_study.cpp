@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/preparation/gravity_check.hpp"
+#include "analysis/preparation/held_rows.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
 #include "core/base/check.hpp"
@@ -114,8 +115,10 @@ preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& s
   return preparation::noise_card(recording, RecordingKind::strapdown, resting_rows(search));
 }
 
-CaseStudy case_study(const mc::Study& study, const Recording& recording) {
+CaseStudy case_study(const mc::Study& study, const Recording& given) {
   CaseStudy out;
+  Recording recording = given;
+  preparation::leave_out_stuck(recording, out.remarks);
   out.source = recording.source;
   out.static_min = study.static_min;
   const Signals signals = signals_of(recording);

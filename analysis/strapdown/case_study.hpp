@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "analysis/preparation/noise_card.hpp"
 #include "core/estimate/strapdown/gyrocompass.hpp"
@@ -12,7 +13,8 @@ namespace drift::strapdown {
 /// A recording of sensors on a case, made ready as a test of a platform (case_test.hpp).
 struct CaseStudy {
   std::string source;
-  double static_min = 0.0;  ///< shortest dwell that counts [s]
+  std::vector<std::string> remarks;  ///< what of the recording is left out
+  double static_min = 0.0;           ///< shortest dwell that counts [s]
   DwellSearch search;
   Gyrocompass compass;
   CaseTest test;
@@ -33,6 +35,7 @@ preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& s
 /// Finds the dwells, levels and gyrocompasses, lays out. The prior of the gyros' fixed drift is
 /// that of the study's first filter. A unit whose gyros do not see the Earth is laid out one way at
 /// a time, levelled by accelerometers that are calibrated on gravity where there are dwells enough.
+/// What a stuck sensor reads, or one at the end of its range, is left out and remarked.
 /// InputError (recording) if the channels are not there or the unit never rests.
 CaseStudy case_study(const mc::Study& study, const Recording& recording);
 

@@ -43,6 +43,28 @@ Diagnosis diagnosed(const mc::Study& study, const Recording& recording) {
   return diagnose_case(study, identify_case(study, case_study(study, recording)));
 }
 
+/// The rows in which a gyro of a recording is not what it was, of all [first, end).
+Recording with_gyro(Recording r, std::size_t first, std::size_t end, double value) {
+  const auto gyro = std::ranges::find(r.channels, "gyro_x", &Channel::name);
+  for (std::size_t k = first; k < end; ++k) gyro->values[k] = value;
+  return r;
+}
+
+TEST(ConsumerDiagnose, AGyroThatStandsStillInATurnIsLeftOutAsIfItWereMissing) {
+  const Recording whole = made(0.0, 7);
+  // A rest of 4 s at 100 Hz, then a turn: half a second in the middle of the second one.
+  const std::size_t first = 400 + 250 + 400 + 100, end = first + 50;
+  const double there = whole.find("gyro_x")->values[first];
+  const CaseIdentification stuck = identify_case(nominal(), with_gyro(whole, first, end, there)),
+                           missing =
+                               identify_case(nominal(), with_gyro(whole, first, end, nan_value));
+  ASSERT_EQ(stuck.study.remarks.size(), 1u);
+  EXPECT_NE(stuck.study.remarks[0].find("gyro_x stands still for 50 samples"), std::string::npos);
+  EXPECT_TRUE(missing.study.remarks.empty());
+  EXPECT_EQ(stuck.fits.front().fit.estimate.statistic, missing.fits.front().fit.estimate.statistic);
+  EXPECT_LT(stuck.fits.front().fit.estimate.statistic_per_dof(), 1.5);
+}
+
 TEST(ConsumerDiagnose, RecoversTheMisalignmentThatTheRecordingWasMadeWithAndWritesItDown) {
   const Diagnosis d = diagnosed(nominal(), made(3000.0, 5));
   EXPECT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
