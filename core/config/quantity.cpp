@@ -123,6 +123,19 @@ std::string quantity_text(double value, const Unit& unit) {
   return number(value) + shown(unit.symbol);
 }
 
+std::optional<Quantity> quantity_in(std::string_view text) {
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  const char* from = stop;
+  while (from < end && *from == ' ') ++from;
+  if (from == end) return Quantity{value, unit::one};
+  const auto unit = parse_unit(std::string_view(from, static_cast<std::size_t>(end - from)));
+  if (!unit) return std::nullopt;
+  return Quantity{value, *unit};
+}
+
 std::optional<Quantity> read_quantity(Report& report, const Node& node, std::string_view key,
                                       const Option& option) {
   report.declare_at(key, declared_number("", "", option));

@@ -8,28 +8,10 @@
 #include <optional>
 
 #include "core/config/load.hpp"
+#include "core/config/quantity.hpp"
 
 namespace drift::mc {
 namespace {
-
-struct NumberWithUnit {
-  double value = 0.0;
-  Unit unit;
-};
-
-/// "20 arcsec" and 0.5; nothing of a distribution, a table or a word.
-std::optional<NumberWithUnit> number_with_unit(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  const char* from = stop;
-  while (from < end && *from == ' ') ++from;
-  const auto unit = parse_unit(std::string_view(from, static_cast<std::size_t>(end - from)));
-  if (from == end) return NumberWithUnit{value, unit::one};
-  if (!unit) return std::nullopt;
-  return NumberWithUnit{value, *unit};
-}
 
 /// The number or word of a value that is neither table nor list; nothing of those.
 std::optional<std::string> word_of(const config::Node& value) {
@@ -74,7 +56,7 @@ double converted(double value, const Unit& from, const Unit& to) {
 SweptCoordinate coordinate(std::string key, std::vector<std::string> words) {
   SweptCoordinate c{std::move(key), std::move(words), {}};
   for (const std::string& word : c.words) {
-    const auto number = number_with_unit(word);
+    const auto number = config::quantity_in(word);
     if (&word == &c.words.front() && number) c.unit = number->unit;
     if (number && number->unit.same_dimension(c.unit))
       c.numbers.push_back(converted(number->value, number->unit, c.unit));

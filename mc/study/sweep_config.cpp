@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/config/override.hpp"
 #include "core/config/quantity.hpp"
@@ -53,6 +54,19 @@ void refuse_keys_set_twice(Report& report, const Node& sweep) {
       }
 }
 
+/// Whether two values, written as TOML, are one: "20 min" is "1200 s".
+bool same(std::string_view a, std::string_view b) {
+  const auto quantity = [](std::string_view text) {
+    if (text.size() >= 2 && text.front() == '"') text = text.substr(1, text.size() - 2);
+    return config::quantity_in(text);
+  };
+  if (a == b) return true;
+  const auto x = quantity(a), y = quantity(b);
+  constexpr double rounding = 1e-12;  // of a conversion
+  return x && y && x->unit.same_dimension(y->unit) &&
+         std::abs(x->si() - y->si()) <= rounding * std::abs(x->si());
+}
+
 }  // namespace
 
 std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
@@ -76,13 +90,14 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
     SweepAxis axis{member.key, {}};
     for (const auto& value : values.items) {
       std::string text = to_toml(value);
-      if (std::ranges::find(axis.values, text) != axis.values.end())
+      const auto twin =
+          std::ranges::find_if(axis.values, [&](const auto& other) { return same(other, text); });
+      if (twin != axis.values.end())
         report.error(
             value.at,
-            fmt::format(
-                "'sweep.\"{}\"' has {} twice (expected every value once: both would be one study "
-                "point). Remove one",
-                member.key, text));
+            fmt::format("'sweep.\"{}\"' has {} {} (expected every value once: both would be "
+                        "one study point). Remove one",
+                        member.key, text, *twin == text ? "twice" : "and " + *twin));
       else
         axis.values.push_back(std::move(text));
     }

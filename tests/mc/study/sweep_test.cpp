@@ -103,6 +103,14 @@ TEST(Sweep, RefusesAValueThatComesTwice) {
       << found[0];
 }
 
+TEST(Sweep, RefusesOneValueInTwoUnits) {
+  const auto found = mistakes(small_study + "[sweep]\n\"plan.dwell\" = [\"20 min\", \"1200 s\"]\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("has \"1200 s\" and \"20 min\""), std::string::npos) << found[0];
+  EXPECT_TRUE(
+      mistakes(small_study + "[sweep]\n\"plan.dwell\" = [\"20 min\", \"2400 s\"]\n").empty());
+}
+
 TEST(Sweep, ATableIsLaidOverItsSection) {
   // What it does not name stays: the other noise, the terms of the truth, the other parameters.
   const std::string base = small_study + "[readout]\naccelerometer_noise = \"50 ug\"\n" +
