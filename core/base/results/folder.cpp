@@ -105,10 +105,11 @@ void refuse_changed(const ResultsFolder& folder) {
   if (!changed.empty())
     throw InputError(
         ExitCode::store,
-        fmt::format("{}: {} changed since driftscope wrote {} (expected as written, to be "
-                    "replaced). Nothing was changed; move away what you want to keep, or give "
-                    "another folder with -o",
-                    folder.path, listed(changed), changed.size() == 1 ? "it" : "them"));
+        fmt::format("{}: {} changed since driftscope wrote {}, or what {} says of {} did (expected "
+                    "as written, to be replaced). Nothing was changed; move away what you want to "
+                    "keep, or give another folder with -o",
+                    folder.path, listed(changed), changed.size() == 1 ? "it" : "them",
+                    ResultsRegister::file_name, changed.size() == 1 ? "it" : "them"));
 }
 
 /// What the command is going to write, and its list of what it wrote does not have.
