@@ -42,9 +42,6 @@ struct RankingGroup {
   const Layout& layout() const { return models.front().ranking.layout; }
 };
 
-/// What a better plan of the study should make small, by its name. InputError as rank_plan().
-Criterion criterion_of(const mc::Study& study, const std::string& name);
-
 /// A better plan for the first model of the first group.
 struct PlanImprovement {
   Improvement improvement;

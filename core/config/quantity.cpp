@@ -52,13 +52,27 @@ std::optional<Unit> unit_of(std::string_view symbol) {
   return parse_unit(symbol);
 }
 
+/// A number, what is wrong with it, and the text behind it.
+struct NumberAndSymbol {
+  double value = 0.0;
+  std::errc error{};
+  std::string_view symbol;
+};
+NumberAndSymbol split(std::string_view whole) {
+  std::string_view text = trimmed(whole);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  NumberAndSymbol out;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out.value);
+  out.error = error;
+  out.symbol = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  return out;
+}
+
 /// Splits and converts "60 min"; empty, with the reason in `why`, if it is none.
 std::optional<Quantity> parse(std::string_view whole, const Unit& wanted, std::string& why) {
   const bool dimensionless = wanted.same_dimension(unit::one);
-  std::string_view text = trimmed(whole);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  Quantity q{0.0, unit::one};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), q.value);
+  const auto [value, error, symbol] = split(whole);
+  Quantity q{value, unit::one};
   if (error == std::errc::invalid_argument) {
     why = fmt::format("has no number (expected {}). Write a number and a unit",
                       expected_quantity(wanted));
@@ -69,7 +83,6 @@ std::optional<Quantity> parse(std::string_view whole, const Unit& wanted, std::s
                       expected_quantity(wanted));
     return std::nullopt;
   }
-  const std::string_view symbol = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
   if (symbol.empty()) {
     if (dimensionless) return q;
     why = fmt::format("has no unit (expected {}). Write \"{} {}\", or the unit that is meant",
@@ -124,14 +137,9 @@ std::string quantity_text(double value, const Unit& unit) {
 }
 
 std::optional<Quantity> quantity_in(std::string_view text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const auto [value, error, symbol] = split(text);
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  const char* from = stop;
-  while (from < end && *from == ' ') ++from;
-  if (from == end) return Quantity{value, unit::one};
-  const auto unit = parse_unit(std::string_view(from, static_cast<std::size_t>(end - from)));
+  const std::optional<Unit> unit = symbol.empty() ? unit::one : unit_of(symbol);
   if (!unit) return std::nullopt;
   return Quantity{value, *unit};
 }

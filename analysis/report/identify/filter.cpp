@@ -6,6 +6,7 @@
 #include "analysis/report/page/degeneracies.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/physics/parameters_config.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -88,11 +89,10 @@ std::string furthest_apart(const FilterView& v) {
     param = v.summary.layout.params[k];
   }
   if (param == TermLibrary::num_params) return "";
-  const bool batch_counts = &judged(v.spec(), first) != &first.ekf;
-  return fmt::format(" EKF 1 and batch are furthest apart in {}, by {:.2g} sigma; {}.",
-                     parameter_key(param), most,
-                     batch_counts ? "the batch fit counts: it is iterated, the EKF passes once"
-                                  : "the EKF counts: the batch fit knows no drift that varies");
+  return fmt::format(
+      " EKF 1 and batch are furthest apart in {}, by {:.2g} sigma; {}.", parameter_key(param), most,
+      drift_varies(v.spec()) ? "the EKF counts: the batch fit knows no drift that varies"
+                             : "the batch fit counts: it is iterated, the EKF passes once");
 }
 
 /// Truth, prior, EKF (of so many starts) and batch estimates, learning ratio and start consistency
@@ -105,10 +105,9 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
       where == On::page ? "< | <unit | prior sigma" : "<",
       fmt::format(
           "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of {}, 1 = "
-          "nothing "
-          "learned. {}wrong: by more than 5 sigma of the truth.{}",
+          "nothing learned. {}wrong: by more than 5 sigma of the truth.{}",
           starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
-          &judged(v) == &runs.front()->ekf ? "EKF 1" : "the batch fit",
+          drift_varies(v.spec()) ? "EKF 1" : "the batch fit",
           runs.size() < 2 ? ""
                           : fmt::format("ratio: standard deviation between the EKF's {} starts / "
                                         "RMS of their sigmas. ",

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "tests/support/program.hpp"
+#include "tests/support/short_study.hpp"
 
 namespace drift::several_recordings_test {
 namespace {
@@ -9,29 +10,9 @@ namespace {
 using namespace drift::test;
 namespace fs = std::filesystem;
 
-constexpr const char* study = R"(schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-preset = "six"
-dwell  = "20 min"
-sample = "4 min"
-mode   = "level"
-[truth]
-coupling = "eq5"
-terms = ["fixed_drift", "g_drift"]
-[[filter]]
-name     = "right"
-coupling = "eq5"
-terms = ["fixed_drift", "g_drift"]
-[monte_carlo]
-runs = 4
-seed = 3
-)";
-
 TEST(SeveralRecordings, AreAllWrittenAndEveryResidualSaysOfWhichItIs) {
   const ScratchFolder folder;
-  const std::string file = folder.write("s.toml", study), out = folder.file("out");
+  const std::string file = folder.write("s.toml", short_study), out = folder.file("out");
   std::string recordings;
   for (const char* run : {"0", "1"}) {
     const std::string path = folder.file("r" + std::string(run) + ".csv");
@@ -59,11 +40,11 @@ TEST(SeveralRecordings, AreAllWrittenAndEveryResidualSaysOfWhichItIs) {
 
 TEST(TracedRun, SaysWhoseCourseItIs) {
   const ScratchFolder folder;
-  const std::string file = folder.write("s.toml", study);
+  const std::string file = folder.write("s.toml", short_study);
   for (const char* estimator : {"ekf", "iterated"}) {
     const std::string out = folder.file(estimator), trace = folder.file("t.csv");
     ASSERT_EQ(driftscope("run " + file + " -o " + out +
-                         " --quiet --set monte_carlo.estimator=" + estimator)
+                         " --runs 4 --quiet --set monte_carlo.estimator=" + estimator)
                   .code,
               0);
     const Answer a = driftscope("replay " + out + " --run 1 --trace " + trace);

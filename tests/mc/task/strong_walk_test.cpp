@@ -10,20 +10,14 @@ namespace {
 
 using namespace drift::test;
 
-constexpr std::size_t runs = 40;
-
-/// Good instruments, twelve slewed positions, all parameters; `noise` in truth and filter.
-mc::Study study_with(std::string_view coupling, std::string_view noise,
-                     std::string_view estimator = "iterated") {
-  const std::string model = fmt::format("coupling = \"{}\"\n{}", coupling, noise);
+/// Good instruments on a plan; what the truth and the right filter are.
+mc::Study study_of(std::string_view plan, std::string_view truth, std::string_view filter,
+                   std::string_view estimator) {
   return read_text(fmt::format(R"(schema = 1
 [site]
 latitude = "45.75 deg"
 [plan]
-preset = "slew12"
-dwell = "60 min"
-sample = "3 min"
-mode = "free"
+{}
 [readout]
 accelerometer_noise = "5 ug"
 gimbal_noise = "5 arcsec"
@@ -33,11 +27,19 @@ gimbal_noise = "5 arcsec"
 name = "matched"
 {}
 [monte_carlo]
-runs = {}
+runs = 200
 seed = 5
 estimator = "{}"
 )",
-                               model, model, runs, estimator));
+                               plan, truth, filter, estimator));
+}
+
+/// Twelve slewed positions, all parameters; `noise` in truth and filter.
+mc::Study study_with(std::string_view coupling, std::string_view noise,
+                     std::string_view estimator = "iterated") {
+  const std::string model = fmt::format("coupling = \"{}\"\n{}", coupling, noise);
+  return study_of("preset = \"slew12\"\ndwell = \"60 min\"\nsample = \"3 min\"\nmode = \"free\"",
+                  model, model, estimator);
 }
 
 /// Mean NIS and NEES of a right filter are 1 with the standard deviation sqrt(2 / dof).
@@ -45,14 +47,18 @@ void expect_one(const mc::ChiSquareSum& sum, const std::string& what) {
   EXPECT_NEAR(sum.mean(), 1.0, 4.0 * std::sqrt(2.0 / sum.dof)) << what;
 }
 
-/// NIS and NEES of the first start of the right filter.
-void expect_consistent(const mc::Study& study, const std::string& what) {
+/// The first start of the right filter in so many runs.
+mc::StartStatistics first_start(const mc::Study& study, std::size_t runs, const std::string& what) {
   const mc::StudyTask task(study);
   const auto worker = task.worker();
   mc::PointStatistics statistics(task.study(), 0);
   statistics.add(run_block(task, *worker, 0, runs));
-  const auto& start = statistics.filters()[0].starts()[0];
   EXPECT_EQ(statistics.failures().lost().hits, 0u) << what;
+  return statistics.filters()[0].starts()[0];
+}
+
+void expect_consistent(const mc::Study& study, const std::string& what, std::size_t runs = 40) {
+  const auto start = first_start(study, runs, what);
   expect_one(start.nis, what + ": NIS");
   expect_one(start.nees_all, what + ": NEES");
 }
@@ -74,58 +80,24 @@ TEST(MatchedFilter, IsConsistentWhereTheAttitudeWalks) {
 
 /// Level positions, samples of ten minutes: one step of the walk is more than all is known by.
 mc::Study coarse_study(std::string_view estimator, std::string_view terms_of_truth) {
-  const std::string walk = "drift_random_walk = \"0.01 deg/h/sqrt(h)\"";
-  return read_text(fmt::format(R"(schema = 1
-[site]
-latitude = "45 deg"
-[plan]
-preset = "six"
-dwell = "60 min"
-sample = "10 min"
-mode = "level"
-[readout]
-accelerometer_noise = "5 ug"
-gimbal_noise = "5 arcsec"
-[truth]
-coupling = "eq6"
-terms = [{}]
-{}
-[[filter]]
-name = "matched"
-coupling = "eq6"
-terms = ["fixed_drift"]
-{}
-[monte_carlo]
-runs = 200
-seed = 9
-estimator = "{}"
-)",
-                               terms_of_truth, walk, walk, estimator));
+  const auto model = [](std::string_view terms) {
+    return fmt::format(
+        "coupling = \"eq6\"\nterms = [{}]\ndrift_random_walk = \"0.01 deg/h/sqrt(h)\"", terms);
+  };
+  return study_of("preset = \"six\"\ndwell = \"60 min\"\nsample = \"10 min\"\nmode = \"level\"",
+                  model(terms_of_truth), model("\"fixed_drift\""), estimator);
 }
 
 TEST(MatchedFilter, SaysHowWellTheDriftOfTheLastSampleIsKnown) {
   // With the walk's next step in it sigma was 1.6 times the error: NEES 0.38.
-  for (const char* estimator : {"iterated", "ekf"}) {
-    const mc::Study study = coarse_study(estimator, "\"fixed_drift\"");
-    const mc::StudyTask task(study);
-    const auto worker = task.worker();
-    mc::PointStatistics statistics(task.study(), 0);
-    statistics.add(run_block(task, *worker, 0, 200));
-    const auto& start = statistics.filters()[0].starts()[0];
-    expect_one(start.nees_all, std::string(estimator) + ": NEES");
-    expect_one(start.nis, std::string(estimator) + ": NIS");
-  }
+  for (const char* estimator : {"iterated", "ekf"})
+    expect_consistent(coarse_study(estimator, "\"fixed_drift\""), estimator, 200);
 }
 
 TEST(MatchedFilter, KnowsADriftThatWalksFromZero) {
   // The truth has no constant drift: its walk was in what estimates are compared with, and not in
   // the recording.
-  const mc::Study study = coarse_study("iterated", "");
-  const mc::StudyTask task(study);
-  const auto worker = task.worker();
-  mc::PointStatistics statistics(task.study(), 0);
-  statistics.add(run_block(task, *worker, 0, 200));
-  const auto& start = statistics.filters()[0].starts()[0];
+  const auto start = first_start(coarse_study("iterated", ""), 200, "from zero");
   expect_one(start.nis, "NIS");
   // Every error is at most that of a drift drawn from the prior.
   EXPECT_LT(start.nees_all.mean(), 1.0 + 4.0 * std::sqrt(2.0 / start.nees_all.dof));
