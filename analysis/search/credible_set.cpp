@@ -118,6 +118,10 @@ const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits) {
   return best;
 }
 
+bool is_among(const std::vector<Refit>& refits, const Explanation& in) {
+  return std::ranges::any_of(refits, [&](const Refit& r) { return same(r.choices, in); });
+}
+
 CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {
   CredibleSet out;
   std::vector<Refit> good;

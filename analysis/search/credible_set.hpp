@@ -15,6 +15,9 @@ bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover 
 /// does.
 const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits);
 
+/// Whether an explanation has been fitted.
+bool is_among(const std::vector<Refit>& refits, const Explanation& in);
+
 /// Explanations weighed against each other.
 struct CredibleSet {
   std::vector<Refit> sets;          ///< most probable first; each may hold several causes

@@ -77,6 +77,24 @@ std::vector<Choice> greedy(const Field& field, const std::vector<Score>& scores,
   return in;
 }
 
+/// Whether the parameters of a candidate are all of one unit that another one holds, and not all
+/// that that one holds: the linear, the quadratic or the cubic part of a term.
+bool is_part(const inference::CandidateSet& set, const inference::Candidate& whole,
+             const inference::Candidate& c) {
+  const auto unit_of = [](std::size_t param) {
+    return TermLibrary::specs[param].unit.symbol.view();
+  };
+  const auto of_unit = [&](const inference::Candidate& o) {
+    return whole.contains(o) && std::ranges::all_of(o.params, [&](std::size_t i) {
+             return unit_of(i) == unit_of(c.params.front());
+           });
+  };
+  return c.params.size() > 1 && of_unit(c) &&
+         std::ranges::none_of(set.candidates, [&](const inference::Candidate& o) {
+           return of_unit(o) && o.contains(c);
+         });
+}
+
 }  // namespace
 
 std::vector<Choice> ways_of(const Fitted& e, std::size_t k) {
@@ -158,6 +176,19 @@ std::vector<Explanation> promising_several(const Search& s) {
                                      s.thresholds.scan_threshold, EffortLimits::together);
   if (several.size() <= 2) return {};
   return {several};
+}
+
+std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
+  std::vector<Explanation> all;
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    const inference::CandidateSet& set = s.nominal.set;
+    for (std::size_t n = 0; n < set.candidates.size(); ++n) {
+      if (!is_part(set, set.candidates[in[k].candidate], set.candidates[n])) continue;
+      all.push_back(in);
+      all.back()[k] = Choice{n, s.nominal.scores[n].variant};
+    }
+  }
+  return all;
 }
 
 }  // namespace drift::search

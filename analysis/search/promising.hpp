@@ -29,4 +29,9 @@ std::vector<Explanation> promising_pairs(const Search& s, std::size_t most);
 /// More than two, one by one.
 std::vector<Explanation> promising_several(const Search& s);
 
+/// Explanations in which a part of one member's term stands for all of it. Where everything is far
+/// off a whole term scores best whatever part of it is missing; which of it the recording shows is
+/// told by evidence only once the others are in the model.
+std::vector<Explanation> with_parts(const Search& s, const Explanation& in);
+
 }  // namespace drift::search

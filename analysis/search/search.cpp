@@ -124,40 +124,6 @@ std::optional<Choice> left_out_term_missed(const Search& s, const Fitted& now) {
   return missed;
 }
 
-/// Whether the parameters of a candidate are all of one unit that another one holds, and not all
-/// that that one holds: the linear, the quadratic or the cubic part of a term.
-bool is_part(const inference::CandidateSet& set, const inference::Candidate& whole,
-             const inference::Candidate& c) {
-  const auto unit_of = [](std::size_t param) {
-    return TermLibrary::specs[param].unit.symbol.view();
-  };
-  const auto of_unit = [&](const inference::Candidate& o) {
-    return whole.contains(o) && std::ranges::all_of(o.params, [&](std::size_t i) {
-             return unit_of(i) == unit_of(c.params.front());
-           });
-  };
-  return c.params.size() > 1 && of_unit(c) &&
-         std::ranges::none_of(set.candidates, [&](const inference::Candidate& o) {
-           return of_unit(o) && o.contains(c);
-         });
-}
-
-/// Explanations in which a part of one member's term stands for all of it. Where everything is far
-/// off a whole term scores best whatever part of it is missing; which of it the recording shows is
-/// told by evidence only once the others are in the model.
-std::vector<Explanation> with_parts(const Search& s, const Explanation& in) {
-  std::vector<Explanation> all;
-  for (std::size_t k = 0; k < in.size(); ++k) {
-    const inference::CandidateSet& set = s.nominal.set;
-    for (std::size_t n = 0; n < set.candidates.size(); ++n) {
-      if (!is_part(set, set.candidates[in[k].candidate], set.candidates[n])) continue;
-      all.push_back(in);
-      all.back()[k] = Choice{n, s.nominal.scores[n].variant};
-    }
-  }
-  return all;
-}
-
 /// Terms that the nominal model leaves out unknowingly, one after the other, each fitted through
 /// the full dynamics: whoever leaves out one usually leaves out several, and beside them the
 /// linearised test says little. Nor is anything known of what drives the platform. One of a size
@@ -190,9 +156,7 @@ void add_fewer(const Search& s, const MeasuredTest& test, std::vector<Refit>& re
     }
     if (best && best->choices.size() > 1 && test.timeline.of_case)
       for (Explanation& smaller : with_parts(s, best->choices)) fewer.push_back(std::move(smaller));
-    std::erase_if(fewer, [&](const Explanation& x) {
-      return std::ranges::any_of(refits, [&](const Refit& r) { return same(r.choices, x); });
-    });
+    std::erase_if(fewer, [&](const Explanation& x) { return is_among(refits, x); });
     if (fewer.empty()) return;
     for (Refit& r : refit_all(s, test, fewer, NoiseKinds::driving_too))
       refits.push_back(std::move(r));
@@ -212,9 +176,8 @@ std::vector<Explanation> not_tried(const Search& s, const std::vector<Refit>& re
                                    const std::vector<std::size_t>& singles) {
   std::vector<Explanation> all;
   for (const std::size_t k : singles) {
-    const Explanation one{{k, s.nominal.scores[k].variant}};
-    if (std::ranges::none_of(refits, [&](const Refit& r) { return same(r.choices, one); }))
-      all.push_back(one);
+    Explanation one{{k, s.nominal.scores[k].variant}};
+    if (!is_among(refits, one)) all.push_back(std::move(one));
   }
   return all;
 }
@@ -249,7 +212,8 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
     out.beside = std::move(weighed.beside);
     return true;
   };
-  const auto try_more = [&](const std::vector<Explanation>& more) {
+  const auto try_more = [&](std::vector<Explanation> more) {
+    std::erase_if(more, [&](const Explanation& x) { return is_among(refits, x); });
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
   };
   // Where such terms are left out and everything is far off, one effect will not mend it.
@@ -260,6 +224,9 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   }
   for (Refit& r : refit_singles(out, test, options.most_refits)) refits.push_back(std::move(r));
   try_more(worth_beside_equation(out, test, refits));
+  // Another equation and an effect are two causes: two effects must stand against them.
+  if (const Refit* best = heaviest(out.nominal, refits); best && best->choices.size() > 1)
+    try_more(promising_pairs(out, options.most_refits));
   if (settled(Leftover::nothing)) return out;
   look_between_all_points(out, test, refits);
   try_more(not_tried(out, refits, promising_singles(out, options.most_refits)));
