@@ -78,8 +78,9 @@ struct SampleLimits {
   /// or falls over the five, or turns once, takes the middle one at most 1.5 ranges away.
   /// Test: Thresholds.ASpikeIs...
   static constexpr double spike = 8.0, spike_spread = 2.0;
-  /// Chi-square per row, under the noise of neighbours' differences, that is asked for no noise:
-  /// random walks of ten times the usual size give 3 to 10. Test: Thresholds.AMisfitOfThirty...
+  /// Chi-square per row, under the noise of neighbours' differences, from which noise that drives
+  /// the platform is believed only if it is of a usual size (NoisePrior::usual): a long test with a
+  /// random walk of such a size has more. Test: Thresholds.AMisfitOfThirty...
   static constexpr double gross = 30.0;
   /// Outliers are at most so large a part of the samples; more of them, and the model is wrong.
   static constexpr double outlier_most = 0.02;
@@ -125,6 +126,8 @@ struct NoisePrior {
     constexpr double at_zero = 0.3675525969478614;  // 2 / (pi sqrt(3))
     return std::log(at_zero) - 2.0 * std::log1p(z * z / 3.0);
   }
+  /// [z] Of 40 instruments one has more: its 97.5 % point. Test: GrossMisfit.IsNoneWhere...
+  static constexpr double usual = 3.182446305284263;
 };
 
 /// How sure a diagnosis is.
@@ -188,8 +191,10 @@ struct WeighLimits {
   static constexpr double tolerable = 3.0;
   static constexpr double needed = 3.0;        ///< [sigma] from zero, of each of several causes
   static constexpr double other_lambda = 3.0;  ///< [sigma] from the nominal equation's, to be named
-  static constexpr double sign = 2.0;    ///< [sigma] expected, if another sign is to count against
-  static constexpr double valley = 6.0;  ///< [2 log L] an end of lambda gains on the fit: 20:1
+  static constexpr double sign = 2.0;  ///< [sigma] expected, if another sign is to count against
+  /// [2 log L] that an end of lambda gains on the joint fit: this lies outside the 95 % interval.
+  /// Test: ClosureProfile.*
+  static constexpr double valley = 3.841458820694124;
   /// Odds against another cause. Test: CredibleSet.ASecondCauseIsOneInTwenty
   static constexpr double second_cause = 20.0;
   /// [log] that more parameters must bring: 20:1. Test: CredibleSet.MoreParametersMustBring...

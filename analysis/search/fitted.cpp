@@ -119,9 +119,12 @@ Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchRe
   Fitted f = linearised(filter, test, fit);
   const VecX residual = inference::residual_of(f.problem, fit);
   const inference::NoiseEstimate differences = inference::noise_of_differences(f.problem, residual);
-  f.gross = inference::grossly_wrong(f.problem, residual, differences);
-  if (f.gross) return with_noise(std::move(f), test.timeline, differences);
   const inference::NoiseModel declared = declared_noise(filter);
+  f.gross = inference::grossly_wrong(f.problem, residual, differences) &&
+            (kinds == NoiseKinds::white ||
+             !inference::driven_as_usual(f.problem, inference::estimate_noise(f.problem, declared),
+                                         declared));
+  if (f.gross) return with_noise(std::move(f), test.timeline, differences);
   lower_outliers(f.problem, declared);
   const inference::NoiseEstimate noise = kinds == NoiseKinds::white
                                              ? inference::estimate_noise(f.problem, declared, {}, 0)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/stats/median.hpp"
 
@@ -54,6 +55,18 @@ bool grossly_wrong(const MeasuredRows& rows, const VecX& residual,
     chi2 += residual[k] * residual[k] / (factor * factor);
   }
   return chi2 > SampleLimits::gross * static_cast<double>(residual.size());
+}
+
+bool driven_as_usual(const MeasuredRows& rows, const NoiseEstimate& noise,
+                     const NoiseModel& declared) {
+  bool driven = false;
+  for (const NoiseComponent* c : noise.components) {
+    if (c->white()) continue;
+    driven = true;
+    const double size = noise.model.*(c->sigma) / unit_of(*c, rows.acc_sigma);
+    if (usual_size(*c, declared).z(size) > NoisePrior::usual) return false;
+  }
+  return driven;
 }
 
 }  // namespace drift::inference
