@@ -10,15 +10,21 @@
 namespace drift::diagnosis {
 namespace {
 
-/// Where a parameter is to be held, and in which model.
-struct Hold {
-  std::size_t profile = 0;
+/// A profile in the making: of which parameter in which model.
+struct Profiled {
+  Profile profile;
   const search::Refit* model = nullptr;
-  double value = 0.0;    ///< SI
-  double penalty = 0.0;  ///< of the prior, twice its log
+  Prior prior;                              ///< that counts; without a sigma where none does
+  std::vector<Profile::Point> points = {};  ///< losses counted from one place
 };
 
-/// The prior that a profile counts; without a sigma where none is.
+/// A point of one of them that is asked for.
+struct Hold {
+  std::size_t profile = 0;
+  double value = 0.0;  ///< SI
+};
+
+/// The prior that a profile counts.
 Prior counted_prior(const search::Search& found, const search::CauseParameter& p) {
   return p.profiled ? fixed(0.0) : found.nominal.filter.believed(p.param);
 }
@@ -35,6 +41,52 @@ std::vector<double> held_values(const search::CauseParameter& p) {
   const auto same = [&](double a, double b) { return std::abs(a - b) <= least; };
   values.erase(std::unique(values.begin(), values.end(), same), values.end());
   return values;
+}
+
+/// Farther out where an end of the interval was not found, and half way to a neighbour of the top
+/// that lies beyond the interval already. A setting, such as a time constant, keeps its sign.
+std::vector<double> next_values(const Profile& p, double outward) {
+  const ParamSpec& spec = TermLibrary::specs[p.param];
+  std::vector<double> values;
+  if (!std::isfinite(p.low_95)) values.push_back(p.points.front().value - outward);
+  if (!std::isfinite(p.high_95)) values.push_back(p.points.back().value + outward);
+  const auto least = std::ranges::min_element(p.points, {}, &Profile::Point::loss);
+  const auto halve = [&](const Profile::Point& beside) {
+    if (beside.loss - least->loss > std::pow(stats::half_width_95, 2))
+      values.push_back(0.5 * (least->value + beside.value));
+  };
+  if (least != p.points.begin()) halve(*(least - 1));
+  if (least + 1 != p.points.end()) halve(*(least + 1));
+  if (spec.kind == ParamKind::nonlinear)
+    std::erase_if(values, [&](double v) { return v * p.value <= 0.0; });
+  for (double& v : values) v *= spec.unit.to_si;
+  return values;
+}
+
+/// Twice the log of the likelihood that a held value loses, counted from anywhere.
+double loss_at(const Profiled& p, const MeasuredTest& test, double value) {
+  const search::Fitted& after = p.model->after;
+  const double off = p.prior.sigma() > 0.0 ? (value - p.prior.mean()) / p.prior.sigma() : 0.0;
+  return off * off - equation::fit_held(p.model->filter, test, after.fit, p.profile.param, value,
+                                        after.problem.weight, after.noise.model)
+                         .log2;
+}
+
+/// Refits at these values, spread over threads; tops and intervals with them.
+void take(std::vector<Profiled>& all, const std::vector<Hold>& holds, const MeasuredTest& test) {
+  const auto losses = mc::run_campaign(holds.size(), [&](std::size_t k) {
+    return loss_at(all[holds[k].profile], test, holds[k].value);
+  });
+  for (std::size_t k = 0; k < holds.size(); ++k) {
+    Profiled& p = all[holds[k].profile];
+    const double unit = TermLibrary::specs[p.profile.param].unit.to_si;
+    if (std::isfinite(losses[k])) p.points.push_back({holds[k].value / unit, losses[k]});
+  }
+  std::erase_if(all, [](const Profiled& p) { return p.points.size() < 3; });
+  for (Profiled& p : all) {
+    p.profile.points = p.points;
+    p.profile = with_interval(std::move(p.profile));
+  }
 }
 
 /// Vertex of the parabola through the least of the points and its neighbours; the least point
@@ -80,40 +132,35 @@ Profile with_interval(Profile profile) {
 
 std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest& test,
                                  const std::vector<search::Cause>& causes) {
-  std::vector<Profile> profiles;
+  std::vector<Profiled> all;
   std::vector<Hold> holds;
   for (const search::Cause& cause : causes)
     for (const search::CauseParameter& p : cause.parameters) {
-      if (profiles.size() == most_profiles || !(p.sigma > 0.0)) continue;
+      if (all.size() == most_profiles || !(p.sigma > 0.0)) continue;
       const search::Refit& model = found.sets[static_cast<std::size_t>(cause.set)];
       if (!model.after.fit.estimate.find(p.param)) continue;
-      const Prior prior = counted_prior(found, p);
-      for (const double value : held_values(p)) {
-        const double off = prior.sigma() > 0.0 ? (value - prior.mean()) / prior.sigma() : 0.0;
-        holds.push_back({profiles.size(), &model, value, off * off});
-      }
-      profiles.push_back({.label = search::keyed(cause.term, cause.axis),
-                          .key = p.key,
-                          .unit = p.unit,
-                          .param = p.param,
-                          .value = p.value,
-                          .sigma = p.sigma});
+      for (const double value : held_values(p)) holds.push_back({all.size(), value});
+      all.push_back({{.label = search::keyed(cause.term, cause.axis),
+                      .key = p.key,
+                      .unit = p.unit,
+                      .param = p.param,
+                      .value = p.value,
+                      .sigma = p.sigma},
+                     &model,
+                     counted_prior(found, p)});
     }
-  const auto losses = mc::run_campaign(holds.size(), [&](std::size_t k) {
-    const Hold& hold = holds[k];
-    const search::Fitted& after = hold.model->after;
-    return hold.penalty - equation::fit_held(hold.model->filter, test, after.fit,
-                                             profiles[hold.profile].param, hold.value,
-                                             after.problem.weight, after.noise.model)
-                              .log2;
-  });
-  for (std::size_t k = 0; k < holds.size(); ++k) {
-    Profile& profile = profiles[holds[k].profile];
-    const double unit = TermLibrary::specs[profile.param].unit.to_si;
-    if (std::isfinite(losses[k])) profile.points.push_back({holds[k].value / unit, losses[k]});
+  take(all, holds, test);
+  constexpr double most_sigmas = 100.0;
+  for (double sigmas = 1.5; sigmas < most_sigmas; sigmas *= 2.0) {
+    holds.clear();
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (const double value : next_values(all[k].profile, sigmas * all[k].profile.sigma))
+        holds.push_back({k, value});
+    if (holds.empty()) break;
+    take(all, holds, test);
   }
-  std::erase_if(profiles, [](const Profile& p) { return p.points.size() < 3; });
-  for (Profile& p : profiles) p = with_interval(std::move(p));
+  std::vector<Profile> profiles;
+  for (Profiled& p : all) profiles.push_back(std::move(p.profile));
   return profiles;
 }
 

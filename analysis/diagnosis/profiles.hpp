@@ -9,14 +9,16 @@
 
 namespace drift::diagnosis {
 
-/// Whether parameters of causes are profiled: five to seven refits each.
+/// Whether parameters of causes are profiled: five to seven refits each, and a few more where these
+/// do not hold the interval.
 enum class Profiles { left_out, of_the_causes };
 
 /// Causes beyond so many parameters are not profiled, the first ones come first.
 inline constexpr std::size_t most_profiles = 8;
 
 /// The profile of every parameter of the causes that has a sigma: refits with it held at its value
-/// and 1.5 and 3 sigmas to either side, of lambda at 0 and 1 too. The likelihood is that by which
+/// and 1.5 and 3 sigmas to either side, of lambda at 0 and 1 too; farther out and closer
+/// to the top as long as these do not hold the interval. The likelihood is that by which
 /// causes are weighed, all else integrated out; the prior of the parameter counts, but not that of
 /// a setting, which stands for the distance of grid points. causes: of found.sets, in their order.
 std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest& test,

@@ -54,14 +54,25 @@ std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Me
   std::vector<Point> points = profiler.at({0.0, 1.0, found->value});
   const double end = points[0].log2 > points[1].log2 ? 0.0 : 1.0;
   if (std::max(points[0].log2, points[1].log2) < points[2].log2 + decisive) return std::nullopt;
-  // How fast it falls around the end is not known beforehand: steps that grow.
-  std::vector<double> around;
-  for (const double step : {0.005, 0.02, 0.06, 0.15, 0.35})
-    for (const double sign : {-1.0, 1.0}) around.push_back(end + sign * step);
-  for (Point& p : profiler.at(around)) points.push_back(std::move(p));
+  const auto take = [&](const std::vector<double>& values) {
+    for (Point& p : profiler.at(values)) points.push_back(std::move(p));
+  };
+  // How fast it falls around the top is not known beforehand: steps that grow.
+  const auto look_around = [&](double value) {
+    std::vector<double> around;
+    for (const double step : {0.005, 0.02, 0.06, 0.15, 0.35})
+      for (const double sign : {-1.0, 1.0}) around.push_back(value + sign * step);
+    take(around);
+  };
+  const auto top = [&]() -> const Point& {
+    return *std::ranges::max_element(points, {}, &Point::log2);
+  };
+  take({0.25, 0.5, 0.75});
+  look_around(end);
+  // Where the joint fit ended beside its optimum, that may be anywhere between.
+  for (int k = 0; k < 2 && top().value != end; ++k) look_around(top().value);
   std::ranges::sort(points, {}, &Point::value);
-  const auto top = std::ranges::max_element(points, {}, &Point::log2);
-  const double most = top->log2;
+  const double most = top().log2;
 
   // The log runs straight between the points; moments of its exponential by fine steps.
   double mass = 0.0, first = 0.0, second = 0.0;

@@ -23,7 +23,8 @@ struct ClosureProfile {
 ///   p(lambda | y) ~ p(lambda) int p(y | lambda, x) p(x) dx   (Laplace at each lambda)
 ///
 /// is evaluated at both ends and at the joint fit; where an end is more probable than the joint fit
-/// by `decisive` (twice the log), around that end too, and mean and sigma are taken from it.
+/// by `decisive` (twice the log), between them and around the most probable point too, and mean and
+/// sigma are taken from it.
 /// Otherwise empty: the joint fit is as good. filter: with lambda free.
 std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
                                               const BatchResult& joint, const VecX& weight,

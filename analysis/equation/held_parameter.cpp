@@ -1,7 +1,10 @@
 #include "analysis/equation/held_parameter.hpp"
 
+#include <utility>
+
 #include "analysis/inference/marginal.hpp"
 #include "analysis/inference/signatures.hpp"
+#include "core/estimate/layout.hpp"
 
 namespace drift::equation {
 
@@ -10,11 +13,18 @@ HeldFit fit_held(const FilterSpec& filter, const MeasuredTest& test, const Batch
                  const inference::NoiseModel& noise) {
   FilterSpec held = filter;
   held.priors[param] = fixed(value);
-  Theta from = theta_of(filter, near);
-  from[param] = value;
-  HeldFit out{
-      value, 0.0,
-      fit_batch_from(held, test, from, near.psi0_l, {.result = BatchOptions::Result::estimates})};
+  const auto fit_from = [&](Theta from) {
+    from[param] = value;
+    return fit_batch_from(held, test, from, near.psi0_l,
+                          {.result = BatchOptions::Result::estimates});
+  };
+  HeldFit out{value, 0.0, fit_from(theta_of(filter, near))};
+  // Of the misalignments a test shows what lambda leaves of them: what fits one lambda may be far
+  // off at the next, beyond a ridge.
+  if (param == closure_param)
+    if (BatchResult other = fit_from(make_layout(filter).theta);
+        other.estimate.statistic < out.fit.estimate.statistic)
+      out.fit = std::move(other);
   inference::LinearProblem problem = inference::linear_problem(held, test, out.fit, {});
   problem.weight = weight;
   out.log2 = inference::marginal_of(problem, noise).log_likelihood2();

@@ -15,8 +15,9 @@ struct HeldFit {
   BatchResult fit;
 };
 
-/// near: a fit of the filter, from which this one starts with `param` put at `value`. weight: of
-/// the rows, as in LinearProblem.
+/// near: a fit of the filter, from which this one starts with `param` put at `value`; that of
+/// lambda starts from the prior too, and the better one is taken. weight: of the rows, as in
+/// LinearProblem.
 HeldFit fit_held(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& near,
                  std::size_t param, double value, const VecX& weight,
                  const inference::NoiseModel& noise);

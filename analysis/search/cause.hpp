@@ -27,17 +27,14 @@ struct CauseParameter {
   bool profiled = false;  ///< nonlinear: found on a grid and refined; sigma from the profile
   /// Distance from the mean of the library's prior, in its sigmas; NaN where that is one value.
   double prior_sigmas = std::numeric_limits<double>::quiet_NaN();
-  /// 95 % interval by refits at fixed values; NaN where there are none.
+  /// 95 % interval by refits at fixed values; NaN where one of its ends is not known.
   double low_95 = std::numeric_limits<double>::quiet_NaN();
   double high_95 = std::numeric_limits<double>::quiet_NaN();
 
-  /// The 95 % interval: by refits where there are any, else by the sigma.
-  double low() const {
-    return std::isfinite(low_95) ? low_95 : value - stats::half_width_95 * sigma;
-  }
-  double high() const {
-    return std::isfinite(high_95) ? high_95 : value + stats::half_width_95 * sigma;
-  }
+  /// The 95 % interval: by refits where there is one, else by the sigma.
+  bool by_refits() const { return std::isfinite(low_95) && std::isfinite(high_95); }
+  double low() const { return by_refits() ? low_95 : value - stats::half_width_95 * sigma; }
+  double high() const { return by_refits() ? high_95 : value + stats::half_width_95 * sigma; }
 };
 
 struct Confusable {

@@ -101,8 +101,14 @@ BatchResult fit_from_both_ends(const Fitted& nominal, const FilterSpec& filter,
 
 }  // namespace
 
+BatchResult CauseFit::with_closure_sigma(BatchResult given) const {
+  for (ParameterEstimate& p : given.estimate.parameters)
+    if (closure_sigma > 0.0 && p.param == closure_param) p.sigma = closure_sigma;
+  return given;
+}
+
 CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
-                    const std::vector<Choice>& choices) {
+                    const std::vector<Choice>& choices, const inference::NoiseModel& noise) {
   CauseFit out{
       with_causes(nominal.filter, nominal.set, choices), {}, expect(nominal, choices), 0.0};
   const auto fit_from = [&](const Theta& from, const BatchResult& beside) {
@@ -113,12 +119,17 @@ CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
     return out;
   }
   out.fit = fit_from_both_ends(nominal, out.filter, test, out.expected.theta);
-  if (const auto profile = equation::profile_closure(out.filter, test, out.fit,
-                                                     nominal.problem.weight, nominal.noise.model)) {
-    out.narrowed =
-        std::max(0.0, std::log(out.filter.priors[closure_param].sigma() / profile->sigma));
-    out.filter.priors[closure_param] = normal(profile->value, profile->sigma);
-    out.fit = fit_from(theta_of(out.filter, profile->fit), profile->fit);
+  if (const auto profile =
+          equation::profile_closure(out.filter, test, out.fit, nominal.problem.weight, noise)) {
+    // Free again it would go back to where the joint fit has it: it is all but held, and the
+    // evidence of that one value stands for what all of them have together.
+    constexpr double held = 1e-3;
+    const Prior own = out.filter.priors[closure_param];
+    const double z = (profile->value - own.mean()) / own.sigma();
+    out.narrowed = std::max(0.0, std::log(own.sigma() / profile->sigma) + 0.5 * z * z);
+    out.closure_sigma = profile->sigma;
+    out.filter.priors[closure_param] = normal(profile->value, held * profile->sigma);
+    out.fit = out.with_closure_sigma(fit_from(theta_of(out.filter, profile->fit), profile->fit));
   }
   return out;
 }

@@ -16,7 +16,12 @@ struct CauseFit {
   FilterSpec filter;
   BatchResult fit;
   Expectation expected;
-  double narrowed = 0.0;  ///< log of how much narrower the prior of lambda has become
+  /// Of lambda where its value is that of the profile and all but held; else 0.
+  double closure_sigma = 0.0;
+  double narrowed = 0.0;  ///< what the log evidence of that value has too much
+
+  /// A fit of `filter` with that sigma of lambda.
+  BatchResult with_closure_sigma(BatchResult given) const;
 };
 
 /// Fits the nominal model with some of its candidates from the amplitudes that the score expects
@@ -24,8 +29,9 @@ struct CauseFit {
 ///
 /// The filter has the candidates' parameters active: amplitudes with the library's priors,
 /// nonlinear parameters free around the grid's value (discrete ones fixed there). frame_closure
-/// turns coupling eq5 and eq6 into the family that holds both.
+/// turns coupling eq5 and eq6 into the family that holds both. noise: under which the values of
+/// lambda are weighed.
 CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
-                    const std::vector<Choice>& choices);
+                    const std::vector<Choice>& choices, const inference::NoiseModel& noise);
 
 }  // namespace drift::search

@@ -193,9 +193,15 @@ bool better(const Refit& a, const Refit& b) {
 
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes) {
-  const CauseFit causes = fit_causes(nominal, test, choices);
+  CauseFit causes = fit_causes(nominal, test, choices, nominal.noise.model);
   const Beside beside{nominal, test, thresholds, kinds};
   Refit out = scored(choices, causes.filter, causes.fit, beside);
+  // What seemed to drive the platform beside one equation may not be there beside another.
+  if (causes.expected.lambda_among_them &&
+      (nominal.noise.model.driven() || out.after.noise.model.driven())) {
+    causes = fit_causes(nominal, test, choices, out.after.noise.model);
+    out = scored(choices, causes.filter, causes.fit, beside);
+  }
   const auto room = with_room_for_sizes(nominal.set, out);
   if (room && out.excess > 0.0)
     look_at_rest(out, examine(room->filter, test, causes.fit, out.after.noise), beside);
@@ -203,10 +209,9 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   if (sizes == Sizes::of_library || !room || room->farthest <= inference::FitLimits::beyond_prior)
     return out;
   // Beyond what its prior makes credible at all a size may be what the test says.
-  Refit as_found = scored(
-      choices, room->filter,
-      fit_batch_from(room->filter, test, theta_of(room->filter, causes.fit), causes.fit.psi0_l),
-      beside);
+  const BatchResult roomy =
+      fit_batch_from(room->filter, test, theta_of(room->filter, causes.fit), causes.fit.psi0_l);
+  Refit as_found = scored(choices, room->filter, causes.with_closure_sigma(roomy), beside);
   as_found.as_found = true;
   judge(as_found, causes, beside);
   return better(as_found, out) ? as_found : out;

@@ -81,10 +81,13 @@ FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::C
 FilterSpec with_room_for_causes(FilterSpec patched, const std::vector<search::Cause>& causes) {
   for (const search::Cause& cause : causes)
     for (const search::CauseParameter& p : cause.parameters) {
-      if (cause.set != 0 || p.profiled || p.param == closure_param || !patched.active[p.param])
-        continue;
+      if (cause.set != 0 || p.profiled || !patched.active[p.param]) continue;
       Prior& prior = patched.priors[p.param];
-      prior = with_room_for(prior, p.value * TermLibrary::specs[p.param].unit.to_si);
+      const double value = p.value * TermLibrary::specs[p.param].unit.to_si;
+      if (p.param != closure_param)
+        prior = with_room_for(prior, value);
+      else if (prior.sigma() < p.sigma)  // the profile's, held
+        prior = fixed(value);
     }
   return patched;
 }
