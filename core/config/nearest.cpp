@@ -39,6 +39,33 @@ double substitution(char a, char b) {
   return neighbours(lower(a), lower(b)) ? 0.9 : 1.0;
 }
 
+/// A name without the number that it ends with.
+std::string_view without_number(std::string_view name) {
+  const std::size_t last = name.find_last_not_of("0123456789");
+  if (last + 1 == name.size()) return name;
+  name = name.substr(0, last + 1);
+  if (name.ends_with('_')) name.remove_suffix(1);
+  return name;
+}
+
+/// Whether one word was slipped into another: once, or twice in a long one.
+bool word_slipped(std::string_view typed, std::string_view meant) {
+  constexpr std::size_t a_letter_tells = 3, long_word = 6;  // letters
+  const double cost = typing_distance(typed, meant);
+  if (typed.size() < a_letter_tells) return cost < 0.9;  // by capitals, or a doubled letter
+  return cost <= (typed.size() < long_word ? 1.0 : 2.0);
+}
+
+std::vector<std::string_view> words_of(std::string_view name) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('_', begin), name.size());
+    words.push_back(name.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
 }  // namespace
 
 double typing_distance(std::string_view typed, std::string_view meant) {
@@ -76,6 +103,15 @@ std::vector<std::string_view> nearest(std::string_view typed,
   for (const auto& [cost, key] : found)
     if (best.size() < most && cost < found.front().first + 1e-9) best.push_back(key);
   return best;
+}
+
+bool is_slip(std::string_view typed, std::string_view meant) {
+  if (without_number(typed) == without_number(meant)) return false;
+  const double cost = typing_distance(typed, meant);
+  if (cost <= 1.0) return word_slipped(typed, meant);
+  if (cost > 2.0) return false;
+  const auto a = words_of(typed), b = words_of(meant);
+  return std::ranges::equal(a, b, word_slipped);
 }
 
 std::string suggestion(std::string_view typed, std::span<const std::string_view> keys,

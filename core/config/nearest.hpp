@@ -17,6 +17,11 @@ double typing_distance(std::string_view typed, std::string_view meant);
 std::vector<std::string_view> nearest(std::string_view typed,
                                       std::span<const std::string_view> keys);
 
+/// Whether what was typed is that name with a slip of the keyboard, where it may be another name as
+/// well: one slip, or two in words of six letters. What a further word ("x_raw", "oil_x"), a number
+/// ("x2", "x_2") or, in a name of two letters, one of them tells apart is another name.
+bool is_slip(std::string_view typed, std::string_view meant);
+
 /// "Did you mean 'x'?" for messages, or `otherwise` if nothing is close.
 std::string suggestion(std::string_view typed, std::span<const std::string_view> keys,
                        std::string_view otherwise = "Use one of these");

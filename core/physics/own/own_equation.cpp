@@ -37,17 +37,26 @@ T right_or_thrown(OrMistake<T> result) {
   return std::get<T>(std::move(result));
 }
 
+/// A name in a text.
+struct Word {
+  std::string text;
+  std::size_t at = 0;
+  bool called = false;  ///< a '(' follows, as on the name of a function
+};
+
 /// Every name of a text, functions and constants included, in its order.
-std::vector<std::string> words_in(std::string_view text) {
+std::vector<Word> words_in(std::string_view text) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_",
                              inside =
                                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
                                  "0123456789";
-  std::vector<std::string> words;
+  std::vector<Word> words;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_not_of(inside, at), text.size());
+    const std::size_t next = text.find_first_not_of(" \t", end);
     if (letters.find(text[at]) != std::string_view::npos)
-      words.emplace_back(text.substr(at, end - at));
+      words.push_back({std::string(text.substr(at, end - at)), at,
+                       next != std::string_view::npos && text[next] == '('});
     at = std::max(end, at + 1);  // figures and what hangs on them ("1e3") are passed over
   }
   return words;
@@ -75,25 +84,40 @@ class EquationCompiler {
   }
 
  private:
-  /// Unknown names that no slip of the keyboard explains are columns of the recording.
+  /// Unknown names that no slip of the keyboard explains are columns of the recording. No column is
+  /// called as a function is.
   void find_covariates() {
-    std::vector<std::string_view> known = reserved_equation_names();
-    known.insert(known.end(), inputs_.begin(), inputs_.end());
-    known.insert(known.end(), e_.names.begin(), e_.names.end());
-    for (const std::string& word : words_in(e_.text)) {
+    const std::vector<std::string_view> reserved = reserved_equation_names();
+    std::vector<std::string_view> values{"pi"};
+    values.insert(values.end(), e_.names.begin(), e_.names.end());
+    values.insert(values.end(), inputs_.begin(), inputs_.end());
+    for (const Word& word : words_in(e_.text)) {
       const auto among = [&](const auto& list) {
-        return std::ranges::find(list, word) != list.end();
+        return std::ranges::find(list, word.text) != list.end();
       };
-      if (among(known) || among(out_.covariates) || !config::nearest(word, known).empty()) continue;
+      if (word.called || among(reserved) || among(values) || among(out_.covariates)) continue;
+      check_slip(word, values);
       if (out_.covariates.size() == most_further_columns)
         throw EquationMistake{
-            e_.text.find(word),
-            fmt::format("names the column '{}' of the recording beside {}", word,
+            word.at,
+            fmt::format("names the column '{}' of the recording beside {}", word.text,
                         fmt::join(out_.covariates, ", ")),
             fmt::format("at most {} further columns in all terms of a study", most_further_columns),
             "Name fewer columns, or correct the name"};
-      out_.covariates.push_back(word);
+      out_.covariates.push_back(word.text);
     }
+  }
+  static void check_slip(const Word& word, const std::vector<std::string_view>& values) {
+    std::vector<std::string_view> meant;
+    for (const std::string_view value : values)
+      if (config::is_slip(word.text, value)) meant.push_back(value);
+    if (meant.empty()) return;
+    throw EquationMistake{
+        word.at, fmt::format("has the unknown name '{}'", word.text),
+        fmt::format("one of {}, or the name of a column of the recording", fmt::join(values, ", ")),
+        fmt::format("{} If it is a column, give it a name less like that in [recording] of the "
+                    "study: columns = {{ another_name = \"{} [its unit]\" }}",
+                    config::suggestion(word.text, meant), word.text)};
   }
 
   void look_at_names(const EquationTree& tree) {

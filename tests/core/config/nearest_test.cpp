@@ -36,6 +36,29 @@ TEST(Nearest, KeysThatAreEquallyCloseAreAllNamed) {
   EXPECT_EQ(suggestion("D_I_", keys), "Did you mean 'D_I_x' or 'D_I_y' or 'D_I_z'?");
 }
 
+TEST(Nearest, AFurtherWordOrANumberIsNoSlip) {
+  const std::pair<const char*, const char*> slips[] = {{"temprature", "temperature"},
+                                                       {"tempreatrue", "temperature"},
+                                                       {"Temperature", "temperature"},
+                                                       {"temperature_rtae", "temperature_rate"},
+                                                       {"gimball_otter", "gimbal_outer"},
+                                                       {"f_w", "f_x"},
+                                                       {"tt", "t"},
+                                                       {"T", "t"}};
+  for (const auto& [typed, meant] : slips) EXPECT_TRUE(is_slip(typed, meant)) << typed;
+  const std::pair<const char*, const char*> others[] = {{"temperature_raw", "temperature_rate"},
+                                                        {"temperature_raw", "temperature"},
+                                                        {"oil_temperature", "temperature"},
+                                                        {"temperature_2", "temperature"},
+                                                        {"temperature2", "temperature"},
+                                                        {"oil_2", "oil_1"},
+                                                        {"t1", "t"},
+                                                        {"B", "A"},
+                                                        {"AB", "A"},
+                                                        {"oil", "pi"}};
+  for (const auto& [typed, meant] : others) EXPECT_FALSE(is_slip(typed, meant)) << typed;
+}
+
 /// Every slip of every kind at every place of every parameter key. Some leave nothing to tell by
 /// ("D__x" may be D_F_x, D_I_x, D_O_x, D_S_x): where the plain edit distance, computed by another
 /// program, has another key as close, the suggestion cannot know; everywhere else it shall.

@@ -135,6 +135,26 @@ TEST_F(OwnTermsConfig, ColumnsOfTheRecordingAreKnownByTheirNames) {
   EXPECT_EQ(TermLibrary::owner(param("other_A")).needs.covariates, further_column(1));
 }
 
+TEST_F(OwnTermsConfig, AColumnMayBeCalledLikeWhatAnEquationKnowsWithAWordMore) {
+  const auto with = [](const std::string& name) {
+    return own_term("rumble", "drift.x", "A*" + name, "A = { unit = 'deg/h', prior = 1 }");
+  };
+  for (const std::string name : {"oil_temperature", "temperature_2", "temperature_raw",
+                                 "gimbal_outer_raw", "log_oil", "A_oil", "f_x2"}) {
+    read_text(head + with(name));
+    EXPECT_EQ(own_terms().covariates, std::vector<std::string>{name});
+  }
+  for (const auto& [typed, meant] :
+       {std::pair{"temprature", "temperature"}, std::pair{"gimbal_oter", "gimbal_outer"},
+        std::pair{"T", "t"}}) {
+    const std::string said = mistake(with(typed));
+    expect_says(said, std::string("has the unknown name '") + typed + "'");
+    expect_says(said, std::string("Did you mean '") + meant + "'?");
+    expect_says(said, std::string("columns = { another_name = \"") + typed + " [its unit]\" }");
+  }
+  expect_says(mistake(with("foo(t)")), "has the unknown name 'foo'");
+}
+
 TEST_F(OwnTermsConfig, AMistakeInAnEquationIsShownInItsPlace) {
   const std::string text = mistake(
       "[[term]]\nkey = \"rumble\"\nacts_on = \"rate.y\"\nequation = \"A * sinn(t/P)\"\nparameters "
