@@ -149,6 +149,15 @@ constexpr Unit operator""_unit() {
   return *unit;
 }
 
+/// What is to be added to a temperature in this unit, after its size, to have it in degC [K]; of a
+/// unit that measures something else nothing.
+constexpr double celsius_offset(const Unit& unit) {
+  if (unit.dim != detail::dim_of(Dimension::temperature)) return 0.0;
+  const std::string_view symbol = unit.symbol.view();
+  if (symbol.ends_with('K') || symbol.ends_with("Kelvin")) return -273.15;
+  return symbol.ends_with('F') || symbol.ends_with("Fahrenheit") ? -32.0 / 1.8 : 0.0;
+}
+
 namespace unit {
 inline constexpr Unit one = "1"_unit;
 inline constexpr Unit ppm = "ppm"_unit;

@@ -74,7 +74,9 @@ std::optional<Prior> read_prior(Report& report, const Node& node, std::string_vi
     return wrong(kind.value.at, fmt::format("has a {} that is {}", kind.key, describe(kind.value)),
                  is_normal ? "Give mean and 1 sigma" : "Give the lower and the upper bound");
   const auto a = read_quantity(report, kind.value.items[0], key, option);
-  const auto b = read_quantity(report, kind.value.items[1], key, option);
+  Option second = option;
+  second.difference = option.difference || is_normal;  // a sigma
+  const auto b = read_quantity(report, kind.value.items[1], key, second);
   if (!a || !b) return std::nullopt;
   if (is_normal && !(b->value > 0.0))
     return wrong(

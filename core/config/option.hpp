@@ -15,6 +15,7 @@ struct Option {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
   std::string_view doc = {};
+  bool difference = false;  ///< of temperatures: the zero of a scale does not matter
 };
 
 /// An options struct: visit_options(struct, field) calls field(Option, member) for each member.

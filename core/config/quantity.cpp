@@ -68,8 +68,20 @@ NumberAndSymbol split(std::string_view whole) {
   return out;
 }
 
+/// Why a temperature cannot be taken that is on a scale with another zero: "2 K" may be meant as
+/// what is 2 degC more, or as what is near absolute zero.
+std::string other_zero(const Quantity& q, const Unit& wanted) {
+  const double level = (q.si() + celsius_offset(q.unit) - celsius_offset(wanted)) / wanted.to_si;
+  return fmt::format(
+      "is in {}, which has another zero (expected {}). Write \"{}\" if it is a temperature, \"{}\" "
+      "if it is a difference of two",
+      q.unit.symbol.view(), expected_quantity(wanted), quantity_text(level, wanted),
+      quantity_text(q.in(wanted), wanted));
+}
+
 /// Splits and converts "60 min"; empty, with the reason in `why`, if it is none.
-std::optional<Quantity> parse(std::string_view whole, const Unit& wanted, std::string& why) {
+std::optional<Quantity> parse(std::string_view whole, const Option& option, std::string& why) {
+  const Unit& wanted = option.unit;
   const bool dimensionless = wanted.same_dimension(unit::one);
   const auto [value, error, symbol] = split(whole);
   Quantity q{value, unit::one};
@@ -111,6 +123,10 @@ std::optional<Quantity> parse(std::string_view whole, const Unit& wanted, std::s
     return std::nullopt;
   }
   q.unit = *unit;
+  if (!option.difference && celsius_offset(*unit) != celsius_offset(wanted)) {
+    why = other_zero(q, wanted);
+    return std::nullopt;
+  }
   return q;
 }
 
@@ -152,7 +168,7 @@ std::optional<Quantity> read_quantity(Report& report, const Node& node, std::str
   std::optional<Quantity> q;
   std::string why;
   if (node.is(Node::Kind::string)) {
-    q = parse(node.text, option.unit, why);
+    q = parse(node.text, option, why);
     if (!q) why = fmt::format("'{}' = {} {}", key, to_toml(node), why);
   } else if (is_number && !std::isfinite(plain)) {
     why = fmt::format("'{}' = {} is not a finite number (expected {}). Correct the number", key,

@@ -25,8 +25,9 @@ struct Quantity {
 /// "20 arcsec", "0.5": a number, and its unit if it has one; nothing of anything else.
 std::optional<Quantity> quantity_in(std::string_view text);
 
-/// Reads "60 min"; a TOML number where option.unit is dimensionless. Checks dimension, range and
-/// finiteness; reports what is wrong, calling the value `key`, and is then empty.
+/// Reads "60 min"; a TOML number where option.unit is dimensionless. Checks dimension, range,
+/// finiteness and, of a temperature that is no difference, the zero of its scale; reports what is
+/// wrong, calling the value `key`, and is then empty.
 std::optional<Quantity> read_quantity(Report& report, const Node& node, std::string_view key,
                                       const Option& option);
 

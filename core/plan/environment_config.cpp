@@ -24,11 +24,11 @@ void read_number(config::Section& section, const CovariateSpec& c, CovariateCour
                                          "beside it). Add it, or remove the line",
                                          section.full(key), name, c.example));
   };
-  read("_amplitude", {{}, c.unit, 0.0, c.swing, "of its daily sine"}, course.amplitude);
+  read("_amplitude", {{}, c.unit, 0.0, c.swing, "of its daily sine", true}, course.amplitude);
   read("_period", {{}, unit::hour, 0.01, 1e5, "of the sine"}, course.period);
   read("_phase", {{}, unit::deg, -360.0, 360.0, "of the sine at the start"}, course.phase);
   read("_ramp", {{}, c.unit_per_hour(), -c.swing, c.swing, "even change"}, course.ramp);
-  read("_fluctuation", {{}, c.unit, 0.0, c.swing, "1 sigma of a sample"}, course.fluctuation);
+  read("_fluctuation", {{}, c.unit, 0.0, c.swing, "1 sigma of a sample", true}, course.fluctuation);
 }
 
 void read_vector(config::Section& section, const CovariateSpec& c, CovariateCourse& course) {

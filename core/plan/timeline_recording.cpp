@@ -15,6 +15,7 @@
 #include "core/physics/own/own_terms.hpp"
 #include "core/plan/attitude_check.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/celsius_column.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -226,8 +227,11 @@ class Reader {
         carry(values[k], c.first + k, c.is_vector() ? 0.0 : mean_of(values[k]));
     }
     for (std::size_t k = 0; k < own_terms().covariates.size(); ++k) {
-      const std::vector<double> values = column(own_terms().covariates[k]);
+      const std::string& name = own_terms().covariates[k];
+      std::vector<double> values = column(name);
       if (values.empty()) continue;
+      if (const auto wrong = take_celsius(values, *rec_.find(name)))
+        complain(wrong->row, wrong->text);
       timeline_.carried |= further_column(k);
       carry(values, covariate_components + k, 0.0);
     }

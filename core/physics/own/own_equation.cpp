@@ -8,6 +8,7 @@
 #include "core/config/nearest.hpp"
 #include "core/physics/expression/compile.hpp"
 #include "core/physics/expression/degree.hpp"
+#include "core/physics/expression/kelvins.hpp"
 #include "core/physics/expression/parse.hpp"
 #include "core/physics/expression/units_of.hpp"
 #include "core/physics/own/own_inputs.hpp"
@@ -77,6 +78,7 @@ class EquationCompiler {
     look_at_names(tree);
     check_degree(tree);
     check_dimension(tree);
+    check_kelvins(tree);
     out_.program = right_or_thrown(compile_tree(tree));
     if (auto mistake = mistake_in_scenes(out_.program, e_.params, inputs_))
       throw std::move(*mistake);
@@ -164,6 +166,15 @@ class EquationCompiler {
           fmt::format("parameters with which the equation comes to a quantity in {}",
                       wanted.symbol.view()),
           "Correct the unit of a parameter"};
+  }
+
+  void check_kelvins(const EquationTree& tree) const {
+    std::vector<std::optional<KelvinParameter>> kelvins(e_.names.size());
+    for (std::size_t k = 0; k < kelvins.size(); ++k)
+      if (const ParamSpec& spec = e_.params[k]; celsius_offset(spec.unit) != 0.0)
+        kelvins[k] = {e_.names[k], spec.prior.mean()};
+    if (auto mistake = mistake_of_kelvins(tree, own_inputs.size(), kelvins))
+      throw std::move(*mistake);
   }
 
   const OwnEquation& e_;

@@ -24,7 +24,8 @@ struct CompiledEquation {
 };
 
 /// Reads and compiles an equation, and checks that it names every parameter, is proportional to its
-/// amplitudes, measures what it acts on, and is a number with a slope wherever the platform may be.
+/// amplitudes, measures what it acts on, has no temperature in K beside a column in degC, and is a
+/// number with a slope wherever the platform may be.
 /// A name that is none and not nearly one is a column of the recording: it is looked up in
 /// `covariates`.
 OrMistake<CompiledEquation> compile_equation(const OwnEquation& equation,

@@ -51,7 +51,9 @@ std::optional<Prior> read_own_prior(Section& section, const Unit& unit,
   const config::Node* node =
       section.take("prior", Section::Kind::unknown, "1 sigma, in the unit of the parameter");
   if (node == nullptr) return std::nullopt;
-  const Option option{.key = "prior", .unit = unit};
+  // A plain number is a sigma, whatever the zero of its scale.
+  const bool sigma = node->is(config::Node::Kind::string) && config::quantity_in(node->text);
+  const Option option{.key = "prior", .unit = unit, .difference = sigma};
   const auto given =
       read_prior(section.report(), with_unit(*node, unit), section.full("prior"), option);
   if (!given) return std::nullopt;

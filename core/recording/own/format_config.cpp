@@ -129,7 +129,7 @@ void read_offsets(Section& section, RecordingKind kind, RecordingFormat& format)
       for (const Unit& u :
            {unit::s, unit::g, unit::deg, unit::deg_per_h, "degC"_unit, "gauss"_unit})
         if (u.dim == quantity->dim) wanted = u;
-    const Option option{.key = member.key, .unit = wanted};
+    const Option option{.key = member.key, .unit = wanted, .difference = true};
     const auto q = config::read_quantity(section.report(), member.value, key, option);
     if (!q) continue;
     format.offsets.push_back({member.key, q->si(), q->unit.dim});

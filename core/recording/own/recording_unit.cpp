@@ -160,13 +160,6 @@ std::optional<Unit> parse_recording_unit(std::string_view whole) {
   return Unit{Name(text), size * unit->to_si, unit->dim};
 }
 
-double celsius_offset(const Unit& unit) {
-  if (unit.dim != "K"_unit.dim) return 0.0;
-  const std::string_view symbol = unit.symbol.view();
-  if (symbol.ends_with('K') || symbol.ends_with("Kelvin")) return -273.15;
-  return symbol.ends_with('F') || symbol.ends_with("Fahrenheit") ? -32.0 / 1.8 : 0.0;
-}
-
 bool same_unit(const Unit& a, const Unit& b) {
   return a.dim == b.dim && a.to_si == b.to_si && celsius_offset(a) == celsius_offset(b);
 }

@@ -14,9 +14,6 @@ namespace drift {
 /// else as written, so that a file written with it reads back alike.
 std::optional<Unit> parse_recording_unit(std::string_view text);
 
-/// What is to be added to a temperature in this unit, after its size, to have it in degC [K].
-double celsius_offset(const Unit& unit);
-
 /// Whether a number means the same in both: a temperature in K is not one in degC.
 bool same_unit(const Unit& a, const Unit& b);
 

@@ -53,6 +53,29 @@ TEST(Quantity, ARangeHoldsItsEndsInEveryUnit) {
   EXPECT_FALSE(quantity("\"0.9 s\"", positive));
 }
 
+TEST(Quantity, ATemperatureIsGivenOnTheScaleThatIsAskedFor) {
+  const Option celsius{.key = "v", .unit = "degC"_unit}, kelvin{.key = "v", .unit = "K"_unit},
+      difference{.key = "v", .unit = "degC"_unit, .difference = true};
+  EXPECT_DOUBLE_EQ(quantity("\"21 degC\"", celsius)->si(), 21.0);
+  EXPECT_DOUBLE_EQ(quantity("\"294.15 K\"", kelvin)->si(), 294.15);
+  EXPECT_DOUBLE_EQ(quantity("\"2 K\"", difference)->si(), 2.0);
+  EXPECT_FALSE(quantity("\"21 degC\"", kelvin));
+  Report report("t");
+  EXPECT_FALSE(read_quantity(report, value("\"294.15 K\""), "v", celsius));
+  try {
+    report.throw_if_wrong();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("Write \"21 degC\" if it is a temperature, \"294.15 "
+                                         "degC\" if it is a difference of two"),
+              std::string::npos)
+        << e.what();
+  }
+  // The sigma of a distribution is a difference.
+  EXPECT_EQ(read_prior(report, value("{ normal = [\"21 degC\", \"2 K\"] }"), "v", celsius),
+            normal(21.0, 2.0));
+  EXPECT_FALSE(read_prior(report, value("{ uniform = [\"1 degC\", \"2 K\"] }"), "v", celsius));
+}
+
 TEST(Quantity, WhatIsNoQuantityIsRefused) {
   const Option time{"v", unit::minute, 0.0, 1e6, ""};
   for (const char* text :

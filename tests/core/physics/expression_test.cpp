@@ -7,6 +7,7 @@
 #include "core/physics/expression/compile.hpp"
 #include "core/physics/expression/degree.hpp"
 #include "core/physics/expression/evaluate.hpp"
+#include "core/physics/expression/kelvins.hpp"
 #include "core/physics/expression/parse.hpp"
 #include "core/physics/expression/units_of.hpp"
 
@@ -165,6 +166,26 @@ TEST(Expression, AmplitudesStandInEverySummandOnce) {
   }
   EXPECT_FALSE(
       mistake_of_degree(std::get<EquationTree>(read("x^A")), {false, false, false}, params));
+}
+
+/// y: a column of the recording, P: 294.15 K.
+TEST(Expression, ATemperatureInKelvinsStandsBesideNoColumn) {
+  std::vector<std::optional<KelvinParameter>> kelvins(params.size());
+  kelvins[2] = {"P", 294.15};
+  const auto mistake = [&](const char* text) {
+    return mistake_of_kelvins(std::get<EquationTree>(read(text)), 1, kelvins);
+  };
+  for (const char* right : {"A*step(x - P)", "A*P*y", "A*step(y - B)", "A*step(y/B - y/A - P)",
+                            "A*(y - y - P)", "A*max(x, P)", "A*step(y)*step(x - P)"})
+    EXPECT_FALSE(mistake(right)) << right;
+  const std::pair<const char*, std::size_t> wrong[] = {
+      {"A*step(y - P)", 11}, {"P - y", 0}, {"A*max(y, P)", 9}, {"A*-(y - (B + P))", 13}};
+  for (const auto& [text, place] : wrong) {
+    const auto m = mistake(text);
+    ASSERT_TRUE(m) << text;
+    EXPECT_EQ(m->at, place) << text;
+    EXPECT_NE(m->fix.find("294.15 K is 21 degC as a temperature"), std::string::npos) << m->fix;
+  }
 }
 
 /// x: a time, y: a specific force, A: a rate, B: a rate per g, P: a time.

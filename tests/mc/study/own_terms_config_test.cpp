@@ -155,6 +155,24 @@ TEST_F(OwnTermsConfig, AColumnMayBeCalledLikeWhatAnEquationKnowsWithAWordMore) {
   expect_says(mistake(with("foo(t)")), "has the unknown name 'foo'");
 }
 
+TEST_F(OwnTermsConfig, ATemperatureIsComparedWithAColumnInDegreesCelsius) {
+  const auto with = [](const std::string& equation, const std::string& C) {
+    return own_term("rumble", "drift.y", equation,
+                    "A = { unit = 'deg/h', prior = 1 }, C = { " + C + " }");
+  };
+  const std::string warm = "unit = 'degC', value = 21", kelvin = "unit = 'K', value = 294.15";
+  read_text(head + with("A*step(oil - C)", warm));
+  read_text(head + with("A*step(oil - box - C)", kelvin));
+  read_text(head + with("A*step(temperature - C)", kelvin));
+  const std::string said = mistake(with("A*step(oil - C)", kelvin));
+  expect_says(said, "puts 'C', in K, beside a column of the recording");
+  expect_says(said, "294.15 K is 21 degC as a temperature");
+  expect_says(mistake(with("A*step(oil - C)", "unit = 'degC', value = '294.15 K'")),
+              "Write \"21 degC\" if it is a temperature");
+  read_text(head + with("A*step(oil - C)", warm + ", prior = '2 K'"));  // a sigma
+  EXPECT_EQ(TermLibrary::specs[param("rumble_C")].prior, normal(21.0, 2.0));
+}
+
 TEST_F(OwnTermsConfig, AMistakeInAnEquationIsShownInItsPlace) {
   const std::string text = mistake(
       "[[term]]\nkey = \"rumble\"\nacts_on = \"rate.y\"\nequation = \"A * sinn(t/P)\"\nparameters "
