@@ -207,7 +207,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     leave_out_fillers(r, p.remarks);
     leave_out_held_rows(r, p.remarks);
     leave_out_stuck(r, p.remarks);
-    take_usual_branch(r, p.remarks);
+    if (std::string text = other_branch(r); !text.empty()) p.remarks.push_back(std::move(text));
     for (const std::string& text :
          {other_than_one_g(study, r), other_unit_of_time(r), shifted_numbers(r, study.plan)})
       if (!text.empty()) wrong.push_back(text);
@@ -239,10 +239,12 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
           "absent, empty or stuck (expected at least one). Check the export",
           name_of(r)));
   }
-  if (wrong.empty())
-    for (const Recording& r : p.recordings)
-      if (std::string text = gimbal_of_wrong_sign(p.study, r); !text.empty())
-        wrong.push_back(in_own_names(std::move(text), study.recording));
+  if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
+  for (Recording& r : p.recordings) {
+    take_usual_branch(r);
+    if (std::string text = gimbal_of_wrong_sign(p.study, r); !text.empty())
+      wrong.push_back(in_own_names(std::move(text), study.recording));
+  }
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
   for (const Recording& r : p.recordings)
     for (const auto off_zero : {gimbal_off_zero, heading_off_zero})

@@ -1,12 +1,13 @@
 // A chain of three gimbals has two sets of angles for every attitude.
 #include "analysis/preparation/gimbal_branch.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/base/rng.hpp"
+#include "core/base/check.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::gimbal_branch_test {
@@ -14,9 +15,9 @@ namespace {
 
 /// What is said of it; empty if nothing is.
 std::string usual_branch(Recording& r) {
-  std::vector<std::string> remarks;
-  preparation::take_usual_branch(r, remarks);
-  return remarks.empty() ? "" : remarks.front();
+  std::string said = preparation::other_branch(r);
+  preparation::take_usual_branch(r);
+  return said;
 }
 
 constexpr double pi = std::numbers::pi;
@@ -73,6 +74,27 @@ TEST(GimbalBranch, ARecordingByEitherIsPreparedAlike) {
                                      before.find(name)->values[k],
                                  2.0 * pi),
                   0.0, 1e-14);
+}
+
+TEST(GimbalBranch, AColumnInThePlaceOfTheMiddleGimbalIsNoOtherBranch) {
+  using Names = std::pair<const char*, const char*>;
+  for (const char* preset : {"six", "twelve"}) {
+    mc::Study study = test::six_study();
+    study.plan = preset_plan(preset, PlanDefaults{1200.0, 60.0, {}, {}}).value();
+    for (const auto& [a, b] :
+         {Names{"gimbal_outer", "gimbal_middle"}, Names{"gimbal_middle", "gimbal_inner"},
+          Names{"gimbal_outer", "gimbal_inner"}}) {
+      Recording r = test::simulated(study);
+      std::swap(test::channel(r, a), test::channel(r, b));
+      const std::string line = fmt::format("columns = {{ {0} = \"{1}\", {1} = \"{0}\" }}", a, b);
+      try {
+        preparation::prepare(study, {r});
+        ADD_FAILURE() << preset << ": " << line;
+      } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find(line), std::string::npos) << preset << e.what();
+      }
+    }
+  }
 }
 
 }  // namespace
