@@ -11,15 +11,13 @@
 #include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/late_rows.hpp"
 #include "core/plan/mixup.hpp"
 #include "core/plan/slew_check.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift {
 namespace {
-
-/// How far an attitude is from the plan's as a kind of instrument sees it [rad].
-using Mismatch = double (*)(const Sight&, const Vec3& seen);
 
 double of_accelerometers(const Sight& s, const Vec3& seen) {
   const Vec3 expected = s.R_lr.row(2);
@@ -40,48 +38,6 @@ std::optional<Mixup> mixup_behind(const std::vector<Sight>& sights, Mismatch mis
     return std::ranges::all_of(sights,
                                [&](const Sight& s) { return mismatch(s, m.of(s.seen)) < most; });
   });
-}
-
-/// What the row behind that of a sight shows.
-std::optional<Vec3> next_of(const Recording& recording, const Sight& s,
-                            const ChannelTriple& channels) {
-  return s.row + 1 < recording.rows() ? measured(recording, channels, s.row + 1) : std::nullopt;
-}
-
-/// The fewest of three columns whose next row shows the attitude of the plan wherever the first row
-/// of a position does not; none if no such columns do.
-std::vector<std::size_t> late_columns(const Recording& recording, const std::vector<Sight>& wrong,
-                                      const ChannelTriple& channels, Mismatch mismatch) {
-  if (wrong.size() < fewest_sights) return {};
-  const auto explain = [&](unsigned columns) {
-    return std::ranges::all_of(wrong, [&](const Sight& s) {
-      const auto next = next_of(recording, s, channels);
-      if (!next) return false;
-      Vec3 seen = s.seen;
-      for (Eigen::Index i = 0; i < 3; ++i)
-        if ((columns >> i & 1U) != 0) seen[i] = (*next)[i];
-      return mismatch(s, seen) < largest_mismatch;
-    });
-  };
-  for (const unsigned columns : {1U, 2U, 4U, 3U, 5U, 6U, 7U}) {
-    if (!explain(columns)) continue;
-    std::vector<std::size_t> late;
-    for (std::size_t i = 0; i < 3; ++i)
-      if ((columns >> i & 1U) != 0) late.push_back(i);
-    return late;
-  }
-  return {};
-}
-
-/// Whether the row behind the first one of every position that is elsewhere shows the plan.
-bool next_rows_fit(const Recording& recording, const std::vector<Sight>& wrong,
-                   const ChannelTriple& channels, Mismatch mismatch) {
-  const Channel* heading = recording.find("case_heading");
-  return wrong.size() >= fewest_sights && std::ranges::all_of(wrong, [&](Sight s) {
-           const auto next = next_of(recording, s, channels);
-           if (next && heading != nullptr) s.heading = heading->values[s.row + 1];
-           return next && mismatch(s, *next) < largest_mismatch;
-         });
 }
 
 std::string first_rows_text(std::size_t positions, std::string_view reason) {
@@ -261,8 +217,8 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const bool few = 2 * gimbals.wrong.size() < gimbals.sights.size() && acc.wrong.empty();
   const std::string another_unit = few ? unit_there(gimbals.wrong, units_of(recording)) : "";
   std::vector<RowMistake> all;
-  if (next_rows_fit(recording, acc.wrong, accelerometer_channels, of_accelerometers) &&
-      next_rows_fit(recording, gimbals.wrong, gimbal_channels, of_gimbals) &&
+  if (numbers_early(recording, acc.wrong, accelerometer_channels, of_accelerometers) &&
+      numbers_early(recording, gimbals.wrong, gimbal_channels, of_gimbals) &&
       agree(acc.sights, gimbals.sights))
     return {
         {gimbals.wrong.front().row,

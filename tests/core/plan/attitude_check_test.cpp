@@ -167,5 +167,22 @@ TEST(AttitudeCheck, NamesColumnsThatStandARowLate) {
       << said(both);
 }
 
+/// A zero that is off by just as much as makes another attitude, and drift or a bad reading beside:
+/// the first row is elsewhere, the second is not, and none shows the position before.
+TEST(AttitudeCheck, AZeroAtTheLimitIsNoRowThatComesLate) {
+  Scene s;
+  const std::vector<double>& position = s.column("position");
+  std::vector<double>& outer = s.column("gimbal_outer");
+  for (std::size_t k = 0; k < outer.size(); ++k) {
+    const bool first = k == 0 || position[k] != position[k - 1];
+    // The platform itself turns by 0.25 deg from row to row.
+    outer[k] += (first ? 10.2 : 9.4) * detail::deg;
+  }
+  const auto wrong = s.mistakes();
+  ASSERT_EQ(wrong.size(), 1u);
+  expect_part(wrong[0].text, "gimbal_outer reads 10.2 deg too much");
+  expect_part(wrong[0].text, "offset = { gimbal_outer = \"-10.2 deg\" }");
+}
+
 }  // namespace
 }  // namespace drift::attitude_check_test

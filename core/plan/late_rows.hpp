@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "core/plan/attitude_slips.hpp"
+#include "core/recording/recording.hpp"
+#include "core/recording/recording_channels.hpp"
+
+namespace drift {
+
+/// How far an attitude is from the plan's as a kind of instrument sees it [rad].
+using Mismatch = double (*)(const Sight&, const Vec3& seen);
+
+/// Columns that stand a row late: the fewest of three that, in the first row of every position that
+/// is elsewhere, read what the row before reads rather than what the row behind does, and with
+/// whose readings of the row behind it shows the attitude of the plan. By numbers, from 0; none if
+/// no such columns do, or where fewer than three positions are elsewhere.
+/// wrong: the first rows of positions that are elsewhere.
+std::vector<std::size_t> late_columns(const Recording& recording, const std::vector<Sight>& wrong,
+                                      const ChannelTriple& channels, Mismatch mismatch);
+
+/// Whether all columns do, and the heading of the case as well: the number of the position changes
+/// a row early.
+bool numbers_early(const Recording& recording, const std::vector<Sight>& wrong,
+                   const ChannelTriple& channels, Mismatch mismatch);
+
+}  // namespace drift
