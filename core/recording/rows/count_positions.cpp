@@ -56,11 +56,16 @@ class Motion {
     const auto command = measured(r_, command_channels, row);
     return command && command->norm() > CountLimits::slew;
   }
-  /// By what the case turns from a row to a later one [rad].
+  /// By what the case turns from a row to a later one, whole turns counted [rad].
   double of_case(std::size_t from, std::size_t to) const {
     if (heading_ == nullptr) return 0.0;
-    const double turn = heading_->values[to] - heading_->values[from];
-    return std::isfinite(turn) ? std::abs(std::remainder(turn, 2.0 * std::numbers::pi)) : 0.0;
+    double sum = 0.0;
+    for (std::size_t before = from, k = from + 1; k <= to; ++k) {
+      const double turn = heading_->values[k] - heading_->values[before];
+      if (std::isfinite(turn)) sum += std::remainder(turn, whole_turn);
+      if (std::isfinite(heading_->values[k])) before = k;
+    }
+    return std::abs(sum);
   }
   /// By what the platform turns against the case, or Up on it where a gimbal is not read [rad].
   std::optional<double> turned(std::size_t from, std::size_t to) const {
@@ -80,19 +85,25 @@ class Motion {
   }
   /// Whether they are elsewhere in a row than in an earlier one.
   bool elsewhere(std::size_t from, std::size_t to) const {
-    const double drifted = CountLimits::drift * (time_[to] - time_[from]);
-    return std::max(turned(from, to).value_or(0.0), of_case(from, to)) >
-           CountLimits::turn + drifted;
+    return std::max(turned(from, to).value_or(0.0), of_case(from, to)) > allowed(from, to);
   }
   /// Whether the platform turns, and not only the case below it.
   bool of_platform(std::size_t from, std::size_t to) const {
-    const double with_case = of_case(from, to), turn = turned(from, to).value_or(0.0);
-    if (measured(r_, gimbal_channels, from) && measured(r_, gimbal_channels, to))
-      return turn > with_case + CountLimits::turn;
-    return turn > CountLimits::turn;
+    const double turn = turned(from, to).value_or(0.0);
+    const bool gimbals = measured(r_, gimbal_channels, from) && measured(r_, gimbal_channels, to);
+    // Angles do not tell whole turns of the case.
+    const double with_case =
+        gimbals ? std::abs(std::remainder(of_case(from, to), whole_turn)) : 0.0;
+    return turn > with_case + allowed(from, to);
   }
 
  private:
+  static constexpr double whole_turn = 2.0 * std::numbers::pi;
+  /// By what a platform that stands may be elsewhere in a later row [rad].
+  double allowed(std::size_t from, std::size_t to) const {
+    return CountLimits::turn + CountLimits::drift * (time_[to] - time_[from]);
+  }
+
   const Recording& r_;
   const std::vector<double>& time_;
   const Channel *phase_, *heading_;

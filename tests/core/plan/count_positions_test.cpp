@@ -71,7 +71,8 @@ void turn_by_hand(Recording& r, std::size_t at, int rows) {
 }
 
 TEST(CountPositions, WhatWasTakenAwayComesBack) {
-  for (const std::string_view preset : {"six", "twelve", "twentyfour", "apollo10", "slew12"})
+  for (const std::string_view preset :
+       {"six", "twelve", "twentyfour", "apollo10", "slew12", "casespin"})
     for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
       const Recording whole = recorded(plan_of(preset, law));
       for (const auto lost :
