@@ -44,6 +44,7 @@ std::vector<std::string> parameters() {
 struct Number {
   const char *name, *about;
   double value;
+  const char* units = "1";
 };
 
 std::vector<Number> rmse_of(const ErrorStatistics& e) {
@@ -76,7 +77,8 @@ std::vector<Number> numbers_of(const ErrorStatistics& e, const ParameterHealth& 
   const double unit = e.prior_sigma();
   return joined(
       {{{"runs", "runs with an estimate", static_cast<double>(e.runs())},
-        {"prior_sigma_si", "prior sigma in SI units of the parameter", unit}},
+        {"prior_sigma_si", "prior sigma in SI units of the parameter", unit,
+         "SI unit of the parameter"}},
        rmse_of(e),
        {{"bias", "mean error over the prior sigma", bias.value / unit},
         {"bias_low", "lower end of its 95 % interval", bias.low / unit},
@@ -134,7 +136,7 @@ struct StatisticsTables::Tables {
     std::vector<ExportColumn> columns{{"point", "1", "study point", labels},
                                       {"filter", "1", "filter of the study", plain_names(filters)},
                                       std::move(key)};
-    for (const Number& n : like) columns.push_back({n.name, "1", n.about});
+    for (const Number& n : like) columns.push_back({n.name, n.units, n.about});
     return {name, "row", std::move(columns)};
   }
   static void add(ExportTable& to, std::size_t point, double filter, double key,

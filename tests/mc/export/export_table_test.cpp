@@ -45,6 +45,8 @@ TEST(ExportTable, HoldsTheStatisticsOfTheRuns) {
   EXPECT_DOUBLE_EQ(
       column(statistics, "rmse").values[2] * column(statistics, "prior_sigma_si").values[2],
       right.errors()[2].rmse().value);
+  EXPECT_EQ(column(statistics, "prior_sigma_si").units, "SI unit of the parameter");
+  EXPECT_EQ(column(statistics, "rmse").units, "1");
   const auto& rank = column(statistics, "rank").values;
   const auto best = static_cast<std::size_t>(
       std::find(rank.begin(), rank.begin() + static_cast<std::ptrdiff_t>(n), 1.0) - rank.begin());
