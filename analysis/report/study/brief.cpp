@@ -6,9 +6,11 @@
 namespace drift::report {
 namespace {
 
-/// What the pairs of one kind (with the right equation, or a wrong one) have in common.
+/// What the pairs of one kind (with the right model, a wrong equation, or the right equation and
+/// something of the truth left out) have in common.
 struct Tally {
   std::size_t pairs = 0;
+  std::vector<std::string> models;           ///< in words, each once
   double least_held = 1.0, most_held = 0.0;  ///< share of the errors within 2 sigma
   const Pair* worst = nullptr;               ///< of the most silent failures
   stats::Rate silent = {};
@@ -20,6 +22,9 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
   const mc::FilterStatistics& filter = statistics_of(results, pair);
   const stats::Rate& silent = filter.starts().front().silent;
   ++tally.pairs;
+  if (std::string model = model_in_words(left_out(results, pair));
+      std::ranges::find(tally.models, model) == tally.models.end())
+    tally.models.push_back(std::move(model));
   if (const double held = coverage_of_claims(filter, claims_of(results)); std::isfinite(held)) {
     tally.least_held = std::min(tally.least_held, held);
     tally.most_held = std::max(tally.most_held, held);
@@ -36,8 +41,16 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
 
 std::string held_text(const Tally& t) {
   if (t.most_held < t.least_held) return "";
-  return fmt::format("2 sigma hold {} to {} % of the errors (95.4 expected)",
+  return fmt::format("2 sigma hold {} to {} % of the errors (95.4 expected); ",
                      percent_cell(t.least_held).text, percent_cell(t.most_held).text);
+}
+
+/// "without sag of the truth, or without drift_ramp of the truth".
+std::string models_text(const Tally& t) {
+  constexpr std::size_t most = 3;
+  const std::size_t shown = std::min(most, t.models.size());
+  return fmt::format("{}{}", fmt::join(t.models.begin(), t.models.begin() + shown, ", or "),
+                     shown < t.models.size() ? ", or others" : "");
 }
 
 std::string worst_text(const StudyResults& results, const Tally& t) {
@@ -56,30 +69,34 @@ std::string sigmas_text(const StudyResults& results, const Tally& t) {
 
 InBrief study_in_brief(const StudyResults& results) {
   const std::vector<Pair> pairs = pairs_of(results);
-  Tally right, wrong;
+  Tally right, incomplete, wrong;
   std::size_t lost = 0;
   for (const Pair& pair : pairs) {
-    if (results.statistics[pair.point].failures().too_many())
+    if (results.statistics[pair.point].failures().too_many()) {
       ++lost;
-    else
-      add(matched(results, pair) ? right : wrong, results, pair);
+      continue;
+    }
+    const mc::LeftOut lacks = left_out(results, pair);
+    add(lacks.equation ? wrong : lacks.nothing() ? right : incomplete, results, pair);
   }
   InBrief brief;
   brief.tone = Tone::good;
-  if (wrong.pairs > 0) {
-    brief.verdict = fmt::format("With the wrong equation: {}.", worst_text(results, wrong));
-    if (wrong.silent.low() > 0.01) brief.tone = Tone::bad;
-  }
-  if (right.pairs > 0) {
-    const std::string said = fmt::format("With the right equation: {}; {}.", held_text(right),
-                                         worst_text(results, right));
+  const auto say = [&](const Tally& t, const std::string& said) {
     if (brief.verdict.empty())
       brief.verdict = said;
     else
       brief.more.add(Weight::note, said);
-    if (right.silent.low() > 0.01) brief.tone = Tone::bad;
-  }
-  for (const Tally* t : {&wrong, &right})
+    if (t.silent.low() > 0.01) brief.tone = Tone::bad;
+  };
+  if (wrong.pairs > 0)
+    say(wrong, fmt::format("With the wrong equation: {}.", worst_text(results, wrong)));
+  if (incomplete.pairs > 0)
+    say(incomplete, fmt::format("A filter {}: {}{}.", models_text(incomplete),
+                                held_text(incomplete), worst_text(results, incomplete)));
+  if (right.pairs > 0)
+    say(right, fmt::format("With {}: {}{}.", models_text(right), held_text(right),
+                           worst_text(results, right)));
+  for (const Tally* t : {&wrong, &incomplete, &right})
     if (t->sigmas_off > much_too_small) {
       brief.more.add(Weight::wrong, sigmas_text(results, *t));
       brief.tone = Tone::bad;

@@ -22,16 +22,18 @@ std::string headline_of(const StudyResults& results, const Pair& pair) {
   const FilterStatistics& filter = statistics_of(results, pair);
   const mc::StartStatistics& s = filter.starts().front();
   const std::string start = pair_in_words(results, pair);
-  if (matched(results, pair))
+  const mc::LeftOut lacks = left_out(results, pair);
+  if (lacks.nothing())
     return fmt::format(
-        "{} (the right equation): 2 sigma hold {} % of the errors (95.4 expected) of what the "
-        "filter claims to know; silent failures {}{}.",
-        start, percent_cell(coverage_of_claims(filter, claims_of(results))).text,
-        rate_cell(s.silent).text, off_text(s));
+        "{} ({}): 2 sigma hold {} % of the errors (95.4 expected) of what the filter claims to "
+        "know; silent failures {}{}.",
+        start, model_in_words(lacks),
+        percent_cell(coverage_of_claims(filter, claims_of(results))).text, rate_cell(s.silent).text,
+        off_text(s));
   std::string text = fmt::format(
-      "{} (the wrong equation): in {} of the runs some parameter is more than 5 sigma off; silent "
-      "failures, where nothing in the run shows it: {}",
-      start, rate_cell(s.wrong).text, rate_cell(s.silent).text);
+      "{} ({}): in {} of the runs some parameter is more than 5 sigma off; silent failures, where "
+      "nothing in the run shows it: {}",
+      start, model_in_words(lacks), rate_cell(s.wrong).text, rate_cell(s.silent).text);
   const std::size_t k = worst_parameter(filter, claims_of(results));
   if (k < filter.errors().size())
     text += fmt::format("; worst {}: its error is {} times its sigma", key_at(filter, k),

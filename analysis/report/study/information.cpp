@@ -77,19 +77,21 @@ Section information_section(const StudyResults& results, int threads) {
     for (std::size_t f = 0; f < study.filters.size(); ++f) {
       const planning::ModelRanking* model = ranking_of(plan, study.filters[f]);
       if (model == nullptr) continue;
+      const mc::LeftOut lacks = left_out(results, {p, f});
       const auto comparison = observability::compare_with_monte_carlo(
           model->ranking, errors_of(statistics_of(results, {p, f})),
-          matched(results, {p, f}) ? observability::TruthIs::the_model
-                                   : observability::TruthIs::another_model,
+          lacks.nothing() ? observability::TruthIs::the_model
+                          : observability::TruthIs::another_model,
           has_process_noise(study.truth) || has_process_noise(study.filters[f])
               ? observability::ProcessNoiseIs::there
               : observability::ProcessNoiseIs::nowhere);
       const std::string condition = condition_of(results.points[p]);
-      section.add({comparison_table(comparison,
-                                    fmt::format("Truth {}, filter {}{}{}",
-                                                key_of(study.truth.coupling), study.filters[f].name,
-                                                condition.empty() ? "" : ", ", condition)),
-                   reasons(comparison)});
+      section.add(
+          {comparison_table(
+               comparison, fmt::format("Truth {}, filter {} ({}){}{}", key_of(study.truth.coupling),
+                                       study.filters[f].name, model_in_words(lacks),
+                                       condition.empty() ? "" : ", ", condition)),
+           reasons(comparison)});
     }
     for (const planning::RankingGroup& group : plan.groups) {
       Figure learning = figure_of(learning_chart(group),

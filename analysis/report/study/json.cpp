@@ -70,6 +70,10 @@ Json parameter(const mc::FilterStatistics& f, std::size_t k) {
           {"silent_failure_rate", of(h.silent)}};
 }
 
+Json of(const mc::LeftOut& l) {
+  return {{"equation", l.equation}, {"terms", missing_in(l)}, {"held", keys_of(l.held)}};
+}
+
 Json failures(const mc::FailureStatistics& f) {
   Json deciles = Json::array();
   for (const auto& d : f.deciles()) {
@@ -112,6 +116,7 @@ Json study_document(const StudyResults& results) {
       Json pair = {{"name", filter.columns().name},
                    {"coupling", key_of(filter.columns().coupling)},
                    {"matched", matched(results, {p, f})},
+                   {"left_out", of(left_out(results, {p, f}))},
                    {"starts", Json::array()},
                    {"parameters", Json::array()}};
       for (const auto& s : filter.starts()) pair["starts"].push_back(of(s));

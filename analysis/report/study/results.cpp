@@ -5,6 +5,7 @@
 
 #include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
 
@@ -20,17 +21,39 @@ const mc::FilterStatistics& statistics_of(const StudyResults& results, const Pai
   return results.statistics[pair.point].filters()[pair.filter];
 }
 
+mc::LeftOut left_out(const StudyResults& results, const Pair& pair) {
+  const mc::Study& study = results.points[pair.point].study;
+  return mc::left_out(study.truth, study.filters[pair.filter]);
+}
+
 bool matched(const StudyResults& results, const Pair& pair) {
-  const TruthSpec& truth = results.points[pair.point].study.truth;
-  const Coupling filter = statistics_of(results, pair).columns().coupling;
-  if (truth.coupling == Coupling::servo)
-    return filter == Coupling::eq6 && truth.servo.float_restraint == 0.0;
-  if (filter == truth.coupling || filter == Coupling::lambda) return true;
-  // A loop that compensates nothing is eq. (5).
-  if (truth.coupling == Coupling::compensated)
-    return filter == Coupling::eq5 && truth.loop == LoopEstimate::given &&
-           truth.theta_loop.isZero(0.0);
-  return truth.coupling == Coupling::eq5 && filter == Coupling::compensated;
+  return left_out(results, pair).nothing();
+}
+
+std::vector<std::string> missing_in(const mc::LeftOut& l) {
+  std::vector<std::string> missing = terms_text(TermLibrary::completed(l.parameters));
+  missing.insert(missing.end(), l.noise.begin(), l.noise.end());
+  return missing;
+}
+
+std::vector<std::string> keys_of(const ParamMask& params) {
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < params.size(); ++i)
+    if (params[i]) keys.push_back(parameter_key(i));
+  return keys;
+}
+
+std::string model_in_words(const mc::LeftOut& l) {
+  if (l.nothing()) return "the right model";
+  std::vector<std::string> parts;
+  if (l.equation) parts.emplace_back("the wrong equation");
+  const std::vector<std::string> missing = missing_in(l);
+  if (!missing.empty())
+    parts.push_back(fmt::format("without {} of the truth", fmt::join(missing, ", ")));
+  if (l.held.any())
+    parts.push_back(
+        fmt::format("with {} at other values than the truth", fmt::join(keys_of(l.held), ", ")));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string condition_of(const mc::StudyPoint& point) {

@@ -7,6 +7,7 @@
 #include "analysis/report/page/report.hpp"
 #include "mc/statistics/point_statistics.hpp"
 #include "mc/study/sweep.hpp"
+#include "mc/task/left_out.hpp"
 #include "mc/task/trace.hpp"
 
 namespace drift::report {
@@ -36,8 +37,17 @@ std::vector<Pair> pairs_of(const StudyResults& results);
 
 const mc::FilterStatistics& statistics_of(const StudyResults& results, const Pair& pair);
 
-/// The filter's equation is the one that made the data (an integrating servo closes like eq. (6)).
+/// What of the truth the filter leaves out; nothing: it is the model that made the data.
+mc::LeftOut left_out(const StudyResults& results, const Pair& pair);
 bool matched(const StudyResults& results, const Pair& pair);
+
+/// "the wrong equation, without sag of the truth"; "the right model" of a filter that leaves
+/// nothing out. Terms stand as study files name them.
+std::string model_in_words(const mc::LeftOut& left_out);
+/// What is missing in it, as the "terms" of a study file would have it, and keys of its noise.
+std::vector<std::string> missing_in(const mc::LeftOut& left_out);
+/// "W_tau" of each parameter.
+std::vector<std::string> keys_of(const ParamMask& params);
 
 /// What tells a point from the others besides the truth's coupling: "plan.preset = six"; or empty.
 std::string condition_of(const mc::StudyPoint& point);

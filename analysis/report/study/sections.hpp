@@ -12,7 +12,8 @@ DRIFT_SECTIONS(StudyResults, study_sections, (sweep, evidence), (crossed, eviden
                (convergence, details), (parameters, details), (rate_course, how_sure),
                (failures, how_sure), (provenance, provenance));
 
-/// How the wrong and the right equation do, at their worst.
+/// How filters on a wrong equation, filters that leave something of the truth out and right ones
+/// do, at their worst.
 InBrief study_in_brief(const StudyResults& results);
 
 /// What must not be missed, in words: for each truth and filter how often it fails, how often

@@ -90,7 +90,7 @@ TEST(StudyReport, SaysTheSilentFailureRateInWords) {
   ASSERT_EQ(lines.size(), 8u);
   EXPECT_NE(lines[0].find("the wrong equation"), std::string::npos);
   EXPECT_NE(lines[0].find("silent failures"), std::string::npos);
-  EXPECT_NE(lines[7].find("the right equation"), std::string::npos);
+  EXPECT_NE(lines[7].find("the right model"), std::string::npos);
   const std::string text = to_text(report::study_report(swept()));
   EXPECT_NE(text.find("Truth against filter"), std::string::npos);
   EXPECT_NE(text.find("truth.parameters.eta = 20 arcsec"), std::string::npos);
@@ -123,12 +123,63 @@ TEST(StudyReport, ALoopThatCompensatesNothingIsEquation5) {
   EXPECT_TRUE(report::matched(results, {0, 1}));
 }
 
+/// Accelerometers that drift, and a filter that does not know of it.
+const report::StudyResults& without_ramp() {
+  static const report::StudyResults results = [] {
+    std::string text = small_study;
+    const std::string truth = "\"gyro_misalignment\", \"K0\"]\n[[filter]]";
+    text.replace(text.find(truth), truth.size(),
+                 "\"gyro_misalignment\", \"K0\", \"accelerometer_ramp\"]\n[truth.parameters]\n"
+                 "K0_ramp_x = \"300 ug/h\"\nK0_ramp_y = \"0 ug/h\"\nK0_ramp_z = \"0 ug/h\"\n"
+                 "[[filter]]");
+    return results_of(text, 30);
+  }();
+  return results;
+}
+
+/// No sigma knows of a term that is missing: the errors are those of a wrong model, and linear.
+TEST(StudyReport, ATermThatTheFilterLacksIsNamed) {
+  const report::StudyResults& results = without_ramp();
+  EXPECT_FALSE(report::matched(results, {0, 0}));
+  const std::string first = report::pair_in_words(results, {0, 0});
+  std::string told;
+  for (const std::string& line : report::headlines(results))
+    if (line.starts_with(first)) told = line;
+  EXPECT_NE(told.find("(without accelerometer_ramp.x of the truth)"), std::string::npos) << told;
+  const report::InBrief brief = report::study_in_brief(results);
+  const auto said = brief.more.texts();
+  EXPECT_TRUE(std::ranges::any_of(said, [](const std::string& text) {
+    return text.starts_with("A filter without accelerometer_ramp.x of the truth: 2 sigma hold");
+  })) << fmt::format("{}", fmt::join(said, "\n"));
+  const auto json = nlohmann::json::parse(report::study_report(results).document.second);
+  const auto& pair = json["points"][0]["filters"][0];
+  EXPECT_EQ(pair["matched"], false);
+  EXPECT_EQ(pair["left_out"]["equation"], false);
+  EXPECT_EQ(pair["left_out"]["terms"], nlohmann::json::array({"accelerometer_ramp.x"}));
+}
+
+TEST(StudyReport, ErrorsOfATermThatIsMissingAreNotCalledNonlinear) {
+  std::size_t wrong = 0, nonlinear = 0;
+  for (const report::Block& block : report::information_section(without_ramp(), 1).blocks)
+    if (const auto* table = std::get_if<report::Table>(&block.content);
+        table &&
+        table->title.find("filter right (without accelerometer_ramp.x") != std::string::npos)
+      for (const report::TableRow& row : table->rows) {
+        wrong += row.cells.back().text == "wrong model" ? 1 : 0;
+        nonlinear += row.cells.back().text == "nonlinear" ? 1 : 0;
+      }
+  EXPECT_GT(wrong, 0u);
+  EXPECT_EQ(nonlinear, 0u);
+}
+
 TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
   const auto json = nlohmann::json::parse(report::study_report(swept()).document.second);
   ASSERT_EQ(json["points"].size(), 4u);
   const auto& pair = json["points"][0]["filters"][1];
   EXPECT_EQ(pair["name"], "wrong");
   EXPECT_EQ(pair["matched"], false);
+  EXPECT_EQ(pair["left_out"]["equation"], true);
+  EXPECT_TRUE(pair["left_out"]["terms"].empty());
   const auto& start = swept().statistics[0].filters()[1].starts()[0];
   EXPECT_EQ(pair["starts"][0]["silent_failure_rate"]["hits"], start.silent.hits);
   EXPECT_EQ(pair["starts"][0]["silent_failure_rate"]["of"], 30);

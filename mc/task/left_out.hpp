@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/physics/model_spec.hpp"
+
+namespace drift::mc {
+
+/// What of the truth a filter leaves out: with the best of its estimates it is still another model
+/// than the one that made the data.
+struct LeftOut {
+  bool equation = false;                ///< it has another drift equation
+  ParamMask parameters;                 ///< sizes and noises of the truth that it does not have
+  ParamMask held;                       ///< it knows them, at other values than the truth's
+  std::vector<std::string_view> noise;  ///< keys of process noise of the truth that it has not
+
+  /// The filter is right: its sigmas are those of its errors, as far as it is linear.
+  bool nothing() const { return !equation && parameters.none() && held.none() && noise.empty(); }
+};
+
+/// Compares a filter with the truth. Of the truth counts what acts: an effect of size zero does
+/// not, a drawn one does. A loop that compensates nothing is eq. (5), an integrating servo closes
+/// like eq. (6), and a filter that estimates lambda has every member of the family. What the filter
+/// has beyond the truth harms nothing.
+LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter);
+
+}  // namespace drift::mc

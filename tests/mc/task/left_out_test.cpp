@@ -1,0 +1,135 @@
+// Is a filter of a study the model that made the data? If not, what of the truth does it leave out?
+#include "mc/task/left_out.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/physics/parameters_config.hpp"
+#include "tests/support/model_builders.hpp"
+#include "tests/support/own_terms.hpp"
+
+namespace drift::left_out_test {
+namespace {
+
+using namespace drift::test;
+using Names = std::vector<std::string>;
+
+/// Terms and their default priors.
+template <class Spec>
+Spec model(Coupling coupling, std::initializer_list<std::string_view> terms) {
+  Spec spec;
+  spec.coupling = coupling;
+  for (std::size_t i = 0; i < TermLibrary::specs.size(); ++i)
+    spec.priors[i] = TermLibrary::specs[i].prior_si();
+  for (const std::string_view term : terms)
+    spec.active |= TermLibrary::completed(params_named(term));
+  if (coupling == Coupling::lambda) spec.active.set(closure_param);
+  return spec;
+}
+TruthSpec truth_with(std::initializer_list<std::string_view> terms,
+                     Coupling coupling = Coupling::eq5) {
+  return model<TruthSpec>(coupling, terms);
+}
+FilterSpec filter_with(std::initializer_list<std::string_view> terms,
+                       Coupling coupling = Coupling::eq5) {
+  return model<FilterSpec>(coupling, terms);
+}
+
+/// As a study file names them.
+Names missing(const mc::LeftOut& left_out) {
+  return terms_text(TermLibrary::completed(left_out.parameters));
+}
+
+TEST(LeftOut, IsEveryTermOfTheTruthThatTheFilterDoesNotHave) {
+  const OwnTermsHeld own(own_term("rumble", "rate.y", "A*sin(2*pi*t/P)",
+                                  "A = { unit = 'deg/h', prior = 0.05 }, P = { unit = 'min', value "
+                                  "= 37 }"));
+  for (const TermInfo& term : TermLibrary::terms) {
+    if (term.key == closure_term) continue;  // which is the equation
+    const TruthSpec truth = truth_with({term.key});
+    const FilterSpec with = filter_with({term.key, "azimuth_error"});
+    EXPECT_TRUE(mc::left_out(truth, with).nothing()) << term.key;
+    const FilterSpec without = filter_with({term.key == "g_drift" ? "g2_drift" : "g_drift"});
+    const mc::LeftOut left_out = mc::left_out(truth, without);
+    EXPECT_EQ(missing(left_out), (Names{std::string(term.key)}));
+    EXPECT_FALSE(left_out.nothing() || left_out.equation || left_out.held.any()) << term.key;
+  }
+}
+
+TEST(LeftOut, IsNoEffectOfSizeZero) {
+  TruthSpec truth = truth_with({"fixed_drift", "accelerometer_ramp", "bistable_drift"});
+  const FilterSpec filter = filter_with({"fixed_drift", "bistable_drift"});
+  for (const char* key : {"K0_ramp_y", "K0_ramp_z"}) truth.priors[param(key)] = fixed(0.0);
+  EXPECT_EQ(missing(mc::left_out(truth, filter)), (Names{"accelerometer_ramp.x"}));
+  truth.priors[param("K0_ramp_x")] = fixed(0.0);
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing());
+  // A telegraph of no size lasts on average as long as any.
+  const FilterSpec still = filter_with({"fixed_drift"});
+  EXPECT_EQ(missing(mc::left_out(truth, still)), (Names{"bistable_drift"}));
+  for (const char* key : {"B_x", "B_y", "B_z"}) truth.priors[param(key)] = fixed(0.0);
+  EXPECT_TRUE(mc::left_out(truth, still).nothing());
+}
+
+TEST(LeftOut, IsWhatTheFilterTakesForAnotherConstant) {
+  const std::size_t tau = param("W_tau");
+  TruthSpec truth = truth_with({"warmup_drift"});
+  FilterSpec filter = filter_with({"warmup_drift"});
+  truth.priors[tau] = fixed(1200.0);
+  EXPECT_EQ(mc::left_out(truth, filter).held, ParamMask().set(tau));
+  filter.priors[tau] = fixed(20.0 * unit::minute.to_si);
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing());
+  truth.priors[tau] = normal(1200.0, 60.0);
+  EXPECT_EQ(mc::left_out(truth, filter).held, ParamMask().set(tau)) << "in every run another";
+  filter.priors[tau] = normal(2400.0, 600.0);
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "estimated";
+  truth.priors[param("W_x")] = truth.priors[param("W_y")] = truth.priors[param("W_z")] = fixed(0.0);
+  truth.priors[tau] = fixed(1200.0);
+  filter.priors[tau] = fixed(2400.0);
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "of an effect that is none";
+}
+
+TEST(LeftOut, IsProcessNoiseWhateverItIsCalled) {
+  TruthSpec truth = truth_with({"fixed_drift"});
+  truth.noise = {.angle_random_walk = 1e-6, .drift_random_walk = 1e-9};
+  FilterSpec filter = filter_with({"fixed_drift"});
+  using Keys = std::vector<std::string_view>;
+  EXPECT_EQ(mc::left_out(truth, filter).noise, (Keys{"drift_random_walk", "angle_random_walk"}));
+  filter.noise.angle_random_walk = 1e-7;
+  EXPECT_EQ(mc::left_out(truth, filter).noise, (Keys{"drift_random_walk"}));
+  filter.active |= params_named("drift_random_walk");
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "the term is the same noise";
+  truth = truth_with({"fixed_drift", "drift_random_walk"});
+  filter = filter_with({"fixed_drift"});
+  filter.noise.drift_random_walk = 1e-9;
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "and the other way round";
+}
+
+TEST(LeftOut, IsAnotherEquation) {
+  const auto other = [](const TruthSpec& truth, Coupling filter) {
+    return mc::left_out(truth, filter_with({"gyro_misalignment"}, filter)).equation;
+  };
+  const auto truth = [](Coupling coupling) { return truth_with({"gyro_misalignment"}, coupling); };
+  using enum Coupling;
+  for (const Coupling filter : {eq5, eq6, Coupling::lambda, compensated}) {
+    EXPECT_EQ(other(truth(eq5), filter), filter == eq6) << key_of(filter);
+    EXPECT_EQ(other(truth(eq6), filter), filter != eq6 && filter != Coupling::lambda);
+    EXPECT_EQ(other(truth(servo), filter), filter != eq6 && filter != Coupling::lambda);
+    EXPECT_EQ(other(truth(compensated), filter), filter == eq6) << "it compensates nothing";
+  }
+  TruthSpec spring = truth(servo);
+  spring.servo.float_restraint = 0.1;
+  EXPECT_TRUE(other(spring, eq6));
+  TruthSpec loop = truth(compensated);
+  loop.theta_loop[param("eta_x")] = 1e-3;
+  EXPECT_TRUE(other(loop, eq5));
+  EXPECT_FALSE(other(loop, compensated));
+  TruthSpec between = truth(Coupling::lambda);
+  EXPECT_TRUE(other(between, eq5)) << "drawn anew in every run";
+  between.priors[closure_param] = fixed(0.0);
+  EXPECT_FALSE(other(between, eq5));
+  FilterSpec half = filter_with({"gyro_misalignment"}, Coupling::lambda);
+  half.priors[closure_param] = fixed(0.5);
+  EXPECT_TRUE(mc::left_out(truth(eq6), half).equation);
+}
+
+}  // namespace
+}  // namespace drift::left_out_test
