@@ -12,7 +12,8 @@ namespace drift::config {
 struct Place {
   int line = 1;
   int column = 1;
-  std::string set_key;  ///< not empty: it came from --set of this key
+  std::string set_key;    ///< not empty: it came from --set of this key
+  bool added_to = false;  ///< of a list: --set added to what stands there
 };
 
 struct Member;

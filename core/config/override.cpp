@@ -147,6 +147,7 @@ void apply_addition(Node& root, const std::string& key, std::string_view value) 
   Node more = parse_value(value, key);
   if (!more.is(Node::Kind::array)) more = list_node({std::move(more)});
   list->items.insert(list->items.end(), more.items.begin(), more.items.end());
+  list->at.added_to = true;
 }
 
 }  // namespace drift::config

@@ -61,8 +61,10 @@ void Report::error(const Place& at, const std::string& what) {
 }
 
 void Report::given(const std::string& key, const std::string& text, const Place& at) {
-  resolved_.push_back(
-      {key, text, at.set_key.empty() ? fmt::format("{}:{}", file_name_, at.line) : "--set"});
+  resolved_.push_back({key, text,
+                       at.set_key.empty() ? fmt::format("{}:{}{}", file_name_, at.line,
+                                                        at.added_to ? " and --set" : "")
+                                          : "--set"});
 }
 
 void Report::assumed(const std::string& key, const std::string& text, const std::string& origin) {

@@ -12,7 +12,8 @@ namespace drift::config {
 struct ResolvedValue {
   std::string key;
   std::string text;
-  std::string origin;  ///< "study.toml:12", "--set", "default", "default prior"
+  std::string origin;  ///< "study.toml:12", "--set", both ("study.toml:12 and --set"), "default",
+                       ///< "default prior"
 };
 
 /// Whether a report keeps what keys were asked for.

@@ -10,7 +10,8 @@
 namespace drift::mc {
 namespace {
 
-/// "dir/lab.toml:12", "--set truth.terms", or the file alone where the terms are those of default.
+/// "dir/lab.toml:12" (" and --set" where that added to the list), "--set truth.terms", or the file
+/// alone where the terms are those of default.
 std::string place_of(const Study& study, const std::string& key) {
   const auto terms = std::ranges::find(study.resolved, key, &Resolved::key);
   if (terms == study.resolved.end()) return study.path;

@@ -40,7 +40,8 @@ struct Published {
 struct Resolved {
   std::string key;     ///< "truth.parameters.eta_x"
   std::string value;   ///< "normal(112, 20) arcsec"
-  std::string origin;  ///< "study.toml:12", "--set", "default", "default prior"
+  std::string origin;  ///< "study.toml:12", "--set", both ("study.toml:12 and --set"), "default",
+                       ///< "default prior"
 };
 
 /// A study file, read, checked and converted to internal units.

@@ -95,6 +95,20 @@ TEST(StudyConfig, TheResolvedListNamesTheOriginOfEveryValue) {
   EXPECT_EQ(resolved(s, "filter.1.terms").value, "gyro_misalignment, frame_closure");
 }
 
+TEST(StudyConfig, AListThatWasAddedToComesFromBothPlaces) {
+  const mc::Study file = test::read_text(test::full_study);
+  const std::string line = resolved(file, "filter.1.terms").origin;
+  EXPECT_TRUE(line.starts_with("study.toml:")) << line;
+  const mc::Study added = test::read_text(test::full_study, {{"filter.1.terms+", "drift_ramp.y"}});
+  EXPECT_EQ(resolved(added, "filter.1.terms").value,
+            "gyro_misalignment, frame_closure, drift_ramp.y");
+  EXPECT_EQ(resolved(added, "filter.1.terms").origin, line + " and --set");
+  const mc::Study replaced = test::read_text(
+      test::full_study,
+      {{"filter.1.terms", "[\"gyro_misalignment\"]"}, {"filter.1.terms+", "drift_ramp.y"}});
+  EXPECT_EQ(resolved(replaced, "filter.1.terms").origin, "--set");
+}
+
 TEST(StudyConfig, AStudyOfRecordingsNeedsNeitherTruthNorFilter) {
   const mc::Study s =
       test::read_text("schema = 1\nsite.latitude = \"45 deg\"\nplan.preset = \"six\"\n");
