@@ -6,9 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/preparation/assumed_field.hpp"
 #include "core/base/check.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/truth.hpp"
+#include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::planning {
@@ -32,8 +34,25 @@ bool alike(const ModelSpec& a, const ModelSpec& b) {
   return a.coupling == b.coupling || (facts(a.coupling).other && facts(b.coupling).other);
 }
 
+/// Whether a filter follows a magnetic field that the study does not declare.
+bool must_assume_field(const mc::Study& study) {
+  constexpr CovariateSpec field = covariate("field");
+  return !study.environment[field].declared() &&
+         std::ranges::any_of(study.filters, [&](const FilterSpec& f) {
+           return (TermLibrary::needs(f.model().terms).covariates & field.set()) != 0;
+         });
+}
+
+/// The surroundings of a test that is planned.
+Environment surroundings_of(const mc::Study& study) {
+  Environment all = study.environment;
+  if (must_assume_field(study)) preparation::assume_field(all, study.site.latitude);
+  return all;
+}
+
 /// Groups with models that are not ranked yet.
 std::vector<RankingGroup> groups_of(const mc::Study& study) {
+  const Environment environment = surroundings_of(study);
   std::vector<RankingGroup> groups;
   for (const FilterSpec& filter : study.filters) {
     const auto known = std::ranges::find_if(
@@ -51,7 +70,7 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
       spec.coupling = coupling;
       ModelRanking m;
       m.model = observability::ranked_model(spec, study.has_truth ? &study.truth : nullptr,
-                                            study.site, study.readout, study.environment);
+                                            study.site, study.readout, environment);
       if (coupling == filter.coupling) m.filters = filter.name;
       group.models.push_back(std::move(m));
     };
@@ -118,6 +137,7 @@ void require_ranked(const mc::Study& study) {
                      fmt::format("{}: no [[filter]]: nothing to rank. Add a section [[filter]] "
                                  "with name and coupling",
                                  study.path));
+  mc::require_planned_filters(study, surroundings_of(study));
 }
 
 }  // namespace
@@ -146,6 +166,8 @@ PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
   for (RankingGroup& g : out.groups)
     for (ModelRanking& m : g.models) models.push_back(&m);
   for (const FilterSpec& f : study.filters) out.process_noise |= has_process_noise(f);
+  if (must_assume_field(study))
+    out.assumed_field_l = preparation::dipole_field_l(study.site.latitude);
 
   ModelRanking& first = *models.front();
   Criterion criterion;

@@ -54,6 +54,8 @@ struct PlanRanking {
   double duration = 0.0;       ///< of the plan, slews included [s]
   bool at_truth = false;       ///< linearised at the means of [truth], else at prior means
   bool process_noise = false;  ///< a filter has it; the information does not
+  /// The magnetic field that is taken, local axes [T]; nothing if one is declared, or none needed.
+  std::optional<Vec3> assumed_field_l;
   std::vector<RankingGroup> groups;
   std::optional<PlanImprovement> better;
 };
@@ -76,8 +78,9 @@ std::optional<Improvement> improve_study(const mc::Study& study, const RankOptio
                                          const JudgeStep& judge,
                                          const ImproveProgress& progress = {});
 
-/// Ranks every filter of a study on its plan; no sampling. InputError (config) for a strapdown
-/// study or one without filter, (usage) for an unknown criterion.
+/// Ranks every filter of a study on its plan; no sampling. A magnetic field that nobody declares is
+/// that of a dipole. InputError (config) for a strapdown study or one without filter, or where a
+/// filter follows what a recording alone has; (usage) for an unknown criterion.
 PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
                       const ImproveProgress& progress = {});
 

@@ -15,4 +15,12 @@ FieldKnown assume_field(Timeline& timeline, double latitude) {
   return FieldKnown::assumed;
 }
 
+FieldKnown assume_field(Environment& environment, double latitude) {
+  CovariateCourse& field = environment[covariate("field")];
+  if (field.declared()) return FieldKnown::declared_or_recorded;
+  const Vec3 field_l = dipole_field_l(latitude);
+  field.mean = {field_l.x(), field_l.y(), field_l.z()};
+  return FieldKnown::assumed;
+}
+
 }  // namespace drift::preparation

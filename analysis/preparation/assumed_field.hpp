@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/plan/environment.hpp"
 #include "core/plan/timeline.hpp"
 
 namespace drift::preparation {
@@ -20,5 +21,8 @@ enum class FieldKnown { declared_or_recorded, assumed };
 
 /// Gives a timeline that has no field that of the dipole.
 FieldKnown assume_field(Timeline& timeline, double latitude);
+
+/// The same of what [environment] declares, for a test that is planned.
+FieldKnown assume_field(Environment& environment, double latitude);
 
 }  // namespace drift::preparation

@@ -13,7 +13,8 @@ namespace {
 std::string expected(const CovariateSpec& c) {
   if (!c.is_vector())
     return fmt::format(
-        "a column {} [{}] with numbers in the recording; for a simulated one, {} = {} in "
+        "a column {} [{}] with numbers in the recording; for a simulated or planned test, {} = {} "
+        "in "
         "[environment]",
         c.name, c.unit.symbol.view(), c.name, c.example);
   return fmt::format("columns {} in the recording, or the same keys in [environment] of the study",
@@ -51,7 +52,7 @@ std::vector<std::string> missing_covariates(const DriftModel& model, const Timel
       if ((missing & further_column(k)) != 0)
         messages.push_back(fmt::format(
             "term '{}' needs '{}', which is not known (expected a column of that name with numbers "
-            "in the recording; a simulated one has none). Add it, or remove the term",
+            "in the recording; a simulated or planned test has none). Add it, or remove the term",
             term.key, own_terms().covariates[k]));
   }
   return messages;

@@ -20,15 +20,21 @@ std::string place_of(const Study& study, const std::string& key) {
   return line == std::string::npos ? study.path : study.path + terms->origin.substr(line);
 }
 
-/// What the terms of a section (its key: "truth", "filter.NAME") follow and a simulated recording
-/// has not.
+/// What the terms of a section (its key: "truth", "filter.NAME") follow, and a test without a
+/// recording has not.
 void add_missing(const Study& study, const std::string& section, const ModelSpec& model,
-                 std::vector<std::string>& messages) {
-  Timeline simulated;
-  simulated.carried = study.environment.declared();
-  for (const std::string& what : missing_covariates(model.model(), simulated))
+                 const Environment& known, std::vector<std::string>& messages) {
+  Timeline planned;
+  planned.carried = known.declared();
+  for (const std::string& what : missing_covariates(model.model(), planned))
     messages.push_back(fmt::format("{}: {}: {}", place_of(study, section + ".terms"),
                                    section == "truth" ? "[truth]" : section, what));
+}
+
+void add_missing_of_filters(const Study& study, const Environment& known,
+                            std::vector<std::string>& messages) {
+  for (const FilterSpec& filter : study.filters)
+    add_missing(study, "filter." + filter.name, filter, known, messages);
 }
 
 void throw_if_any(std::vector<std::string> messages) {
@@ -40,15 +46,20 @@ void throw_if_any(std::vector<std::string> messages) {
 void require_simulable_truth(const Study& study) {
   if (!study.has_truth || study.kind != RecordingKind::platform) return;
   std::vector<std::string> messages;
-  add_missing(study, "truth", study.truth, messages);
+  add_missing(study, "truth", study.truth, study.environment, messages);
   throw_if_any(std::move(messages));
 }
 
 void require_simulable_models(const Study& study) {
   std::vector<std::string> messages;
-  add_missing(study, "truth", study.truth, messages);
-  for (const FilterSpec& filter : study.filters)
-    add_missing(study, "filter." + filter.name, filter, messages);
+  add_missing(study, "truth", study.truth, study.environment, messages);
+  add_missing_of_filters(study, study.environment, messages);
+  throw_if_any(std::move(messages));
+}
+
+void require_planned_filters(const Study& study, const Environment& known) {
+  std::vector<std::string> messages;
+  add_missing_of_filters(study, known, messages);
   throw_if_any(std::move(messages));
 }
 

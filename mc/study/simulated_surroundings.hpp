@@ -12,4 +12,8 @@ void require_simulable_truth(const Study& study);
 /// The same of [truth] and every filter: nothing that is simulated can be estimated with them.
 void require_simulable_models(const Study& study);
 
+/// The same of every filter, for a test that is only planned, in surroundings of which `known` is
+/// all that is known.
+void require_planned_filters(const Study& study, const Environment& known);
+
 }  // namespace drift::mc

@@ -153,13 +153,7 @@ struct Words {
                        with, as_well_text(r.gain), r.of_case ? on_a_case : on_a_platform);
   }
 
-  std::string operator()(const FieldAssumed& r) const {
-    return fmt::format(
-        "The magnetic field was neither recorded nor declared: that of a dipole is taken, {:.3f} "
-        "gauss North and {:.3f} gauss Up. Declare field_n, field_w, field_u in [environment] if a "
-        "magnetic effect is in question",
-        r.field_l.x() / "gauss"_unit.to_si, r.field_l.z() / "gauss"_unit.to_si);
-  }
+  std::string operator()(const FieldAssumed& r) const { return field_assumed_text(r.field_l); }
 
   std::string operator()(const NoiseOrEffect& r) const {
     return fmt::format(

@@ -55,6 +55,15 @@ std::string common_scale_text(const identification::CommonScale& common) {
       larger ? "small" : "large");
 }
 
+std::string field_assumed_text(const Vec3& field_l) {
+  const Vec3 gauss = field_l / "gauss"_unit.to_si;
+  return fmt::format(
+      "The magnetic field was neither recorded nor declared: that of a dipole is taken, {:.3f} "
+      "gauss North and {:.3f} gauss Up. Declare field_n, field_w, field_u in [environment] if a "
+      "magnetic effect is in question",
+      gauss.x(), gauss.z());
+}
+
 std::string_view plural(std::size_t count) {
   return count == 1 ? "" : "s";
 }

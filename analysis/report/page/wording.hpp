@@ -33,6 +33,9 @@ std::string late_labels_text(const std::vector<identification::Spike>& spikes);
 /// A sentence on what would move the three K1 alike.
 std::string common_scale_text(const identification::CommonScale& common);
 
+/// That the magnetic field is taken to be that of a dipole, a sentence. field_l: local axes [T].
+std::string field_assumed_text(const Vec3& field_l);
+
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);
 

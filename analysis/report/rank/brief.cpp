@@ -92,6 +92,7 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
     brief.more.add(Weight::note,
                    "A filter has process noise, which this information does not know: what is "
                    "said here is the least that is left.");
+  if (rank.assumed_field_l) brief.more.add(Weight::note, field_remark(rank));
   if (rank.better) {
     brief.next =
         study.plan.preset.empty()

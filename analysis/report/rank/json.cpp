@@ -125,6 +125,9 @@ Json rank_document(const mc::Study& study, const planning::PlanRanking& rank) {
                  {"hours", rank.duration / 3600.0}};
   out["linearised_at"] = rank.at_truth ? "truth means" : "prior means";
   out["process_noise_left_out"] = rank.process_noise;
+  out["assumed_field_gauss"] = rank.assumed_field_l
+                                   ? numbers(Vec3(*rank.assumed_field_l / "gauss"_unit.to_si))
+                                   : Json(nullptr);
   out["headlines"] = headlines(study, rank);
   Json& groups = out["filters"] = Json::array();
   for (const planning::RankingGroup& g : rank.groups) {

@@ -46,6 +46,11 @@ std::string headline_of(const planning::RankingGroup& group, const planning::Mod
 
 }  // namespace
 
+std::string field_remark(const planning::PlanRanking& rank) {
+  return field_assumed_text(*rank.assumed_field_l) +
+         ". What the error of that field adds to sigmas is not in them.";
+}
+
 std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank) {
   std::vector<std::string> all;
   for (const planning::RankingGroup& g : rank.groups)
@@ -54,6 +59,7 @@ std::vector<std::string> headlines(const mc::Study& study, const planning::PlanR
     all.push_back(
         "A filter has process noise, which this information does not model: sigmas are lower "
         "bounds.");
+  if (rank.assumed_field_l) all.push_back(field_remark(rank));
   if (std::ranges::any_of(study.plan.positions,
                           [](const Position& p) { return p.mode == CommandLaw::free; }))
     all.push_back(

@@ -33,6 +33,9 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
 /// What a reader must not miss, one sentence each.
 std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank);
 
+/// That a field had to be assumed, where it had: the remark that a diagnosis makes of it.
+std::string field_remark(const planning::PlanRanking& rank);
+
 // What stands in rank.json too.
 
 /// Every parameter by rising learning ratio of the first model; a second model beside it.

@@ -195,6 +195,63 @@ TEST(RankCommand, SaysWhatIsWrongWithWhatItIsAsked) {
             static_cast<int>(ExitCode::io));
 }
 
+/// A filter of drifts and of one term more.
+std::string study_with(const std::string& term, const std::string& own = "") {
+  return std::string(head) + plan + own +
+         "[[filter]]\nname = \"f\"\ncoupling = \"eq5\"\nterms = [\"fixed_drift\", \"" + term +
+         "\"]\n";
+}
+
+/// As identify and diagnose do, and with the remark of theirs.
+TEST(RankCommand, TakesTheFieldOfADipoleWhereNoneIsDeclared) {
+  const ScratchFolder folder;
+  const std::string line =
+      "rank '" + folder.write("s.toml", study_with("magnetic_drift")) + "' --json";
+  const Json assumed = parsed(driftscope(line));
+  const Json& field = assumed["assumed_field_gauss"];
+  ASSERT_EQ(field.size(), 3u);
+  EXPECT_NEAR(field[0].get<double>(), 0.298 * std::cos(45.75 * M_PI / 180.0), 1e-12);
+  EXPECT_NEAR(field[2].get<double>(), -0.596 * std::sin(45.75 * M_PI / 180.0), 1e-12);
+  EXPECT_NE(assumed["headlines"].dump().find("that of a dipole is taken, 0.208 gauss North and "
+                                             "-0.427 gauss Up"),
+            std::string::npos);
+  std::string sets;
+  for (std::size_t k = 0; k < 3; ++k)
+    sets +=
+        std::string(" --set 'environment.field_") + "nwu"[k] + "=" + field[k].dump() + " gauss'";
+  const Json declared = parsed(driftscope(line + sets));
+  EXPECT_TRUE(declared["assumed_field_gauss"].is_null());
+  EXPECT_EQ(declared["headlines"].dump().find("dipole"), std::string::npos);
+  const Json &here = assumed["filters"][0]["models"][0]["parameters"],
+             &there = declared["filters"][0]["models"][0]["parameters"];
+  ASSERT_EQ(here.size(), there.size());
+  bool learned = false;
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    const double ratio = here[k]["learning_ratio"].get<double>();
+    // The field declared is read from 17 digits and a unit: a rounding or two from the other.
+    EXPECT_NEAR(there[k]["learning_ratio"].get<double>(), ratio, 1e-6 * ratio);
+    learned = learned || (here[k]["key"].get<std::string>().starts_with("M_") && ratio < 0.9);
+  }
+  EXPECT_TRUE(learned);
+}
+
+TEST(RankCommand, SaysOfAFilterThatOnlyARecordingCanFeedThatTheStudyIsWrong) {
+  const ScratchFolder folder;
+  const std::string own =
+      "[[term]]\nkey = \"own\"\nacts_on = \"accelerometer.x\"\nequation = \"A*oil\"\n"
+      "parameters = { A = { unit = \"ug\", prior = 100 } }\n";
+  for (const auto& [text, what] :
+       {std::pair{study_with("own", own), "term 'own' needs 'oil'"},
+        std::pair{study_with("temperature_drift"), "term 'temperature_drift' needs the"}}) {
+    const std::string file = folder.write("s.toml", text);
+    EXPECT_EQ(driftscope("check '" + file + "'").code, 0) << "a recording may have it";
+    const Answer a = driftscope("rank '" + file + "'");
+    EXPECT_EQ(a.code, config_error) << a.err;
+    for (const char* part : {what, "filter.f: ", "planned test"})
+      EXPECT_NE(a.err.find(part), std::string::npos) << part << "\n" << a.err;
+  }
+}
+
 TEST(Tasks, ThatKnowNothingOfEachOtherAreRefusedByEveryCommandThatWrites) {
   const ScratchFolder scratch;
   const std::string recording = scratch.file("r.csv"), out = scratch.file("out"),
