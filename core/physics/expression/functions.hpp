@@ -32,12 +32,20 @@ inline Dependence arc_tangent(const Dependence& x) {
   return {std::atan(x.v), x.on};
 }
 
+/// The slope of x^power where x = 0: below a power of 1 infinite in what x follows, and none in
+/// what it does not.
+template <int N, class S>
+typename Dual<N, S>::Derivative slope_at_zero(const Dual<N, S>& x, double power) {
+  const double factor = power * std::pow(0.0, power - 1.0);
+  return x.d.unaryExpr([&](const S& d) { return value(d) == 0.0 ? S(0.0) : S(d * factor); });
+}
+
 inline double root_of(double x) {
   return std::sqrt(x);
 }
 template <int N, class S>
 Dual<N, S> root_of(const Dual<N, S>& x) {
-  return sqrt(x);
+  return value(x) == 0.0 ? Dual<N, S>(root_of(x.v), slope_at_zero(x, 0.5)) : sqrt(x);
 }
 inline Dependence root_of(const Dependence& x) {
   return {std::sqrt(x.v), x.on};
@@ -85,12 +93,22 @@ S whole_power(const S& x, int n) {
   return n < 0 ? S(1.0) / product : product;
 }
 
-/// x^y of a base that is not negative; below zero it is not a number. Zero stays zero.
+/// Zero to a power above zero: zero, whatever the power.
+inline double zero_power(double, double) {
+  return 0.0;
+}
+inline Dependence zero_power(const Dependence& x, const Dependence& y) {
+  return {0.0, x.on | y.on};
+}
+template <int N, class S>
+Dual<N, S> zero_power(const Dual<N, S>& x, const Dual<N, S>& y) {
+  return {zero_power(x.v, y.v), slope_at_zero(x, value(y))};
+}
+/// x^y of a base that is not negative; below zero it is not a number.
 template <class S>
 S any_power(const S& x, const S& y) {
   using std::exp;
-  if (value(x) == 0.0 && value(y) > 0.0) return chosen(constant_beside(x, 0.0), y);
-  return exp(y * log_of(x));
+  return value(x) == 0.0 && value(y) > 0.0 ? zero_power(x, y) : S(exp(y * log_of(x)));
 }
 
 }  // namespace drift

@@ -94,6 +94,28 @@ TEST(Expression, DerivativesAreThoseByDifferences) {
   }
 }
 
+/// A root is a power: where what stands below it is zero, the slope is infinite in what it follows,
+/// and none in what it does not.
+TEST(Expression, ARootAndThePowerOfAHalfHaveTheSameSlopeAtZero) {
+  using D = Dual<2>;
+  const auto slopes = [](const char* text, double x) {
+    const EquationProgram program =
+        std::get<EquationProgram>(compile_tree(std::get<EquationTree>(read(text))));
+    const D in[] = {D::variable(x, 0), D::variable(0.0, 1)};
+    const D p[] = {value_of[0], value_of[1], value_of[2]};
+    const D value = evaluated(program, in, p);
+    EXPECT_EQ(value.v, 0.0) << text;
+    return std::pair{value.d[0], value.d[1]};
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const char* text : {"sqrt(x)", "x^0.5", "pow(x, 1/2)"})
+    EXPECT_EQ(slopes(text, 0.0), (std::pair{infinity, 0.0})) << text;
+  for (const char* text : {"sqrt(max(x, 0))", "max(x, 0)^0.5", "max(x, 0)^0.1"})
+    EXPECT_EQ(slopes(text, -1.0), (std::pair{0.0, 0.0})) << text;
+  EXPECT_EQ(slopes("x^1.5", 0.0), (std::pair{0.0, 0.0}));
+  EXPECT_EQ(slopes("pow(x, P - 2)", 0.0), (std::pair{1.0, 0.0})) << "to the power of one";
+}
+
 TEST(Expression, DependenceSeesEveryParameterOfAPart) {
   const EquationProgram program = std::get<EquationProgram>(
       compile_tree(std::get<EquationTree>(read("min(A*x, B) + step(P - x) * y"))));

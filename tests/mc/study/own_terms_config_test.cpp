@@ -199,6 +199,7 @@ TEST_F(OwnTermsConfig, MistakesAreSaid) {
       {with("A*(1 + P/(t - P))", A + ", P = { unit = 's', value = 60 }"),
        "is not a number where t = 60"},
       {with("A*sqrt(t/P)", A + ", " + P), "has no finite slope in t where t = 0"},
+      {with("A*(t/P)^0.5", A + ", " + P), "has no finite slope in t where t = 0"},
       {own_term("rumble", "accelerometer.y", "A*f_I", "A = { prior = 1 }"),
        "names 'f_I', along an axis of a gyro"},
       {with("A*pressure*humidity*vibration*voltage*current", A),
@@ -227,6 +228,14 @@ TEST_F(OwnTermsConfig, MistakesAreSaid) {
        "prior = 1 } }\n",
        "an equation in quotes"}};
   for (const auto& [term, part] : cases) expect_says(mistake(term), part);
+}
+
+/// What begins at a time of its own stands still before.
+TEST_F(OwnTermsConfig, ARootOfWhatStandsStillIsRead) {
+  const std::string parameters =
+      "A = { unit = 'deg/h', prior = 1 }, P = { unit = 'min', value = 3 }";
+  for (const char* equation : {"A*sqrt(max(t/P - 1, 0))", "A*max(t/P - 1, 0)^0.5"})
+    EXPECT_TRUE(mistakes(head + own_term("rumble", "drift.y", equation, parameters)).empty());
 }
 
 TEST_F(OwnTermsConfig, ATermHasANameOfItsOwn) {
