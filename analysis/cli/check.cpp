@@ -6,6 +6,7 @@
 #include "analysis/cli/still_to_check.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 
 namespace drift::cli {
@@ -28,6 +29,7 @@ ExitCode check(const StudyArguments& arguments) {
   const mc::Study study = arguments.read();
   if (study.kind == RecordingKind::platform) require_memory_for(study.plan);
   mc::require_simulable_truth(study);
+  mc::require_none(study, mc::broken_own_terms(study));
   std::size_t key_width = 0, value_width = 0;
   for (const mc::Resolved& r : study.resolved) {
     key_width = std::max(key_width, r.key.size());

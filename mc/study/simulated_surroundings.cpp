@@ -6,19 +6,11 @@
 
 #include "core/base/check.hpp"
 #include "core/sim/surroundings.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
+#include "mc/study/place_of.hpp"
 
 namespace drift::mc {
 namespace {
-
-/// "dir/lab.toml:12" (" and --set" where that added to the list), "--set truth.terms", or the file
-/// alone where the terms are those of default.
-std::string place_of(const Study& study, const std::string& key) {
-  const auto terms = std::ranges::find(study.resolved, key, &Resolved::key);
-  if (terms == study.resolved.end()) return study.path;
-  if (terms->origin == "--set") return "--set " + key;
-  const std::size_t line = terms->origin.rfind(':');
-  return line == std::string::npos ? study.path : study.path + terms->origin.substr(line);
-}
 
 /// What the terms of a section (its key: "truth", "filter.NAME") follow, and a test without a
 /// recording has not.
@@ -61,6 +53,9 @@ void require_planned_filters(const Study& study, const Environment& known) {
   std::vector<std::string> messages;
   add_missing_of_filters(study, known, messages);
   throw_if_any(std::move(messages));
+  std::vector<const ModelSpec*> filters;
+  for (const FilterSpec& filter : study.filters) filters.push_back(&filter);
+  require_none(study, broken_own_terms(study, filters, known));
 }
 
 }  // namespace drift::mc

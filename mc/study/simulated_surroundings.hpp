@@ -13,7 +13,7 @@ void require_simulable_truth(const Study& study);
 void require_simulable_models(const Study& study);
 
 /// The same of every filter, for a test that is only planned, in surroundings of which `known` is
-/// all that is known.
+/// all that is known; and if an own term of theirs is no finite number there.
 void require_planned_filters(const Study& study, const Environment& known);
 
 }  // namespace drift::mc

@@ -110,6 +110,10 @@ InBrief study_in_brief(const StudyResults& results) {
     if (brief.verdict.empty()) brief.verdict = "No result: too many runs were lost. See Failures.";
     brief.tone = Tone::bad;
   }
+  for (const std::string& term : broken_terms(results)) {
+    brief.more.add(Weight::wrong, fmt::format("Failed runs: {}.", term));
+    brief.tone = Tone::bad;
+  }
   brief.more.add(
       Weight::note,
       "A silent failure: some parameter is more than 5 sigma off, and nothing in the run shows "

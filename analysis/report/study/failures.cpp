@@ -29,15 +29,19 @@ Section failures(const StudyResults& results) {
               "runs that are left are biased: above 1 % lost there is no headline.");
   for (std::size_t p = 0; p < results.statistics.size(); ++p) {
     const auto& failed = results.statistics[p].failures();
-    const auto diverged = failed.by_status().find(mc::RunStatus::filter_diverged);
-    const std::uint64_t count = diverged == failed.by_status().end() ? 0 : diverged->second;
+    const std::uint64_t count = diverged_runs(failed);
     if (failed.lost().hits == 0 && count == 0) continue;
     const std::string& label = results.points[p].label;
     table.add({label.empty() ? "the study" : label, results.statistics[p].runs(),
                rate_cell(failed.lost(), failed.too_many() ? Tone::bad : Tone::plain), count,
                fmt::format("{}", fmt::join(failed.first_failed(), " ")), tied_cell(failed)});
   }
-  if (!table.rows.empty()) return {"Failures", {table}};
+  if (!table.rows.empty()) {
+    Section section{"Failures", {table}};
+    if (Sentences broken{broken_terms(results)}; !broken.items.empty())
+      section.add({std::move(broken)});
+    return section;
+  }
   return {"Failures", {Paragraph{"Every run yielded data, and no filter diverged."}}, On::page};
 }
 

@@ -6,7 +6,9 @@
 #include "analysis/report/rank/report.hpp"
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/figure.hpp"
+#include "core/base/check.hpp"
 #include "core/physics/stochastic.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 
 namespace drift::report {
 namespace {
@@ -62,6 +64,13 @@ Sentences reasons(const observability::MonteCarloComparison& comparison) {
   return sentences;
 }
 
+/// Why the plan of a point cannot be ranked, though its runs were tried. Own terms stand in its
+/// file at other lines than in the study's.
+std::string why_not_ranked(const mc::Study& point, const InputError& error) {
+  const std::vector<mc::BrokenTerm> broken = mc::broken_own_terms(point);
+  return broken.empty() ? error.what() : broken.front().what;
+}
+
 }  // namespace
 
 Section information_section(const StudyResults& results, int threads) {
@@ -73,7 +82,14 @@ Section information_section(const StudyResults& results, int threads) {
   std::set<std::string> shown;  // points that differ in the truth alone have one plan
   for (const std::size_t p : pictured_points(results)) {
     const mc::Study& study = results.points[p].study;
-    const planning::PlanRanking plan = planning::rank_plan(study, {.threads = threads});
+    planning::PlanRanking plan;
+    try {
+      plan = planning::rank_plan(study, {.threads = threads});
+    } catch (const InputError& error) {
+      section.add({Paragraph{fmt::format("Nothing is promised for {}: {}.", name_of(results, p),
+                                         why_not_ranked(study, error))}});
+      continue;
+    }
     for (std::size_t f = 0; f < study.filters.size(); ++f) {
       const planning::ModelRanking* model = ranking_of(plan, study.filters[f]);
       if (model == nullptr) continue;

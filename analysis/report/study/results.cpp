@@ -6,6 +6,7 @@
 #include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/physics/parameters_config.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 
 namespace drift::report {
 
@@ -54,6 +55,22 @@ std::string model_in_words(const mc::LeftOut& l) {
     parts.push_back(
         fmt::format("with {} at other values than the truth", fmt::join(keys_of(l.held), ", ")));
   return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::uint64_t diverged_runs(const mc::FailureStatistics& failures) {
+  const auto diverged = failures.by_status().find(mc::RunStatus::filter_diverged);
+  return diverged == failures.by_status().end() ? 0 : diverged->second;
+}
+
+std::vector<std::string> broken_terms(const StudyResults& results) {
+  std::vector<std::string> told;
+  for (std::size_t p = 0; p < results.points.size(); ++p) {
+    const mc::FailureStatistics& failures = results.statistics[p].failures();
+    if (failures.lost().hits == 0 && diverged_runs(failures) == 0) continue;
+    for (mc::BrokenTerm& term : mc::broken_own_terms(results.points[p].study))
+      if (std::ranges::find(told, term.what) == told.end()) told.push_back(std::move(term.what));
+  }
+  return told;
 }
 
 std::string condition_of(const mc::StudyPoint& point) {

@@ -49,6 +49,13 @@ std::vector<std::string> missing_in(const mc::LeftOut& left_out);
 /// "W_tau" of each parameter.
 std::vector<std::string> keys_of(const ParamMask& params);
 
+/// Runs in which a filter diverged.
+std::uint64_t diverged_runs(const mc::FailureStatistics& failures);
+
+/// Own terms that are no finite number somewhere on the plan, of the points where runs were lost or
+/// filters diverged: what may have ended these, each once.
+std::vector<std::string> broken_terms(const StudyResults& results);
+
 /// What tells a point from the others besides the truth's coupling: "plan.preset = six"; or empty.
 std::string condition_of(const mc::StudyPoint& point);
 

@@ -86,6 +86,29 @@ TEST(OwnTermCommands, TermsListsAndExplainsThem) {
   EXPECT_NE(driftscope("check " + folder.file("s.toml")).out.find("rumble_A"), std::string::npos);
 }
 
+/// At a row, at the middle of an interval and elsewhere: told where the plan is looked at, and
+/// where runs fail of it.
+TEST(OwnTermCommands, APoleIsToldWithItsTermAndTime) {
+  for (const std::string pole : {"720", "660", "610"}) {
+    const ScratchFolder folder;
+    const std::string config =
+                          folder.write("s.toml", study(all, "A*sin(2*pi*t/P)/(t - " + pole + ")")),
+                      said = "term 'rumble' is no finite number at t = " + pole +
+                             " s, in position 1 (expected";
+    for (const char* command : {"check ", "rank "}) {
+      const Answer a = driftscope(command + config);
+      EXPECT_EQ(a.code, config_error) << command << a.err;
+      EXPECT_NE(a.err.find("s.toml:14: " + said), std::string::npos) << a.err;
+    }
+    const Answer run = driftscope("run " + config + " --runs 4 -o " + folder.file("out"));
+    EXPECT_EQ(run.code, static_cast<int>(ExitCode::failed_runs)) << run.err;
+    EXPECT_NE(text_of(folder.file("out/report.html")).find("is no finite number at t = " + pole),
+              std::string::npos);
+    EXPECT_NE(run.out.find("Failed runs: term 'rumble' is no finite number"), std::string::npos)
+        << run.out;
+  }
+}
+
 TEST(OwnTermCommands, AColumnThatNobodyHasIsAskedFor) {
   const ScratchFolder folder;
   const std::string config = folder.write("s.toml", study(all, "A*sin(2*pi*t/P)*pressure"));

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mc/study/study.hpp"
+
+namespace drift::mc {
+
+/// An own term that is no finite number somewhere on the plan (own_term_gaps()).
+struct BrokenTerm {
+  std::string key;   ///< of its equation in the study: "term.0.equation"
+  std::string what;  ///< "what is wrong (what is expected). What to do"
+};
+
+/// Those of some models, in the surroundings that are known.
+std::vector<BrokenTerm> broken_own_terms(const Study& study,
+                                         const std::vector<const ModelSpec*>& models,
+                                         const Environment& known);
+/// Those of [truth] and every filter, in what [environment] declares.
+std::vector<BrokenTerm> broken_own_terms(const Study& study);
+
+/// InputError (config), with the line of each equation, if there is any.
+void require_none(const Study& study, const std::vector<BrokenTerm>& broken);
+
+}  // namespace drift::mc
