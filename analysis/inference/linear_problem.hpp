@@ -27,7 +27,8 @@ struct IntervalDrive {
   double length = 0.0;  ///< [s]
   double gap = 0.0;     ///< time since the end of the interval before [s]
   bool cage = false;
-  bool rest = false;  ///< nothing moves the attitude; the gyros are measured (Interval::rest)
+  bool begins = false;  ///< a recording (Interval::begins), with all noise anew
+  bool rest = false;    ///< nothing moves the attitude; the gyros are measured (Interval::rest)
   int chain = 0;
   double samples = 1.0;          ///< that the accelerometers average (Interval)
   double readings = 1.0;         ///< of the gimbals, likewise

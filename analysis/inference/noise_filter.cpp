@@ -64,18 +64,24 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
   using Over = Eigen::Matrix<double, states, 1>;
   const NoiseStates s(noise);
   Pairs P = Pairs::Zero();
-  P.topLeftCorner(used, used) = initial_covariance(s, noise);
+  const OverPairs initial = initial_covariance(s, noise);
+  P.topLeftCorner(used, used) = initial;
   events_.reserve(3 * rows.drives.size());
   moves_.reserve(2 * rows.drives.size() * 4 * static_cast<std::size_t>(others));
   Eigen::Index next = 0;
   double product = 1.0;  // whose log is taken now and then
   walk(
       rows, noise, s,
-      [&](std::size_t) {
+      [&](Anew what) {
+        if (what == Anew::recording) {
+          P.topLeftCorner(used, used) = initial;
+          events_.push_back({next, states, 0});
+          return;
+        }
         P.template topRows<3>().setZero();
         P.template leftCols<3>().setZero();
         P.template topLeftCorner<3, 3>().setIdentity();
-        events_.push_back({next, true, 0});
+        events_.push_back({next, 3, 0});
       },
       [&](const NoiseStep& step) {
         if constexpr (others > 0) {
@@ -95,7 +101,7 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
               P.template block<3, 3>(0, 3) += step.kick;
               P.template block<3, 3>(3, 0) += step.kick.transpose();
             }
-          events_.push_back({next, false, moves_.size()});
+          events_.push_back({next, 0, moves_.size()});
           for (int m = 0; m < others; ++m)
             moves_.insert(moves_.end(), {drive(0, m), drive(1, m), drive(2, m), decay[m]});
         }
@@ -140,8 +146,8 @@ void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, double* 
   for (Eigen::Index r = 0; r < count; ++r) {
     const auto k = static_cast<std::size_t>(columns.row + r);
     for (; event < events_.size() && events_[event].row == columns.row + r; ++event) {
-      if (events_[event].cage) {
-        for (int m = 0; m < 3; ++m)
+      if (const int anew = events_[event].anew; anew > 0) {
+        for (int m = 0; m < anew; ++m)
           for (int l = 0; l < lanes; ++l) x[m][l] = zero;
         continue;
       }

@@ -11,7 +11,7 @@ namespace drift::inference {
 /// candidates) runs through them and comes out as innovations, white and of unit variance when the
 /// noise model is right (Willsky and Jones 1976). States: attitude error (new at
 /// each caging, unit prior), and as the noise asks for them drift random walk, Markov drift,
-/// correlated accelerometer noise, an input in one equation.
+/// correlated accelerometer noise, an input in one equation; all of them new in each recording.
 ///
 /// Columns lie side by side in rows of `width` numbers, whole lanes (core/estimate/lanes.hpp): the
 /// states of a few lanes of columns stay in registers while row after row goes through.
@@ -40,7 +40,7 @@ class NoiseFilter {
   /// Something that happens to the state in front of a row.
   struct Event {
     Eigen::Index row = 0;
-    bool cage = false;  ///< the attitude starts anew
+    int anew = 0;  ///< so many states start anew: the attitude, with a recording all of them
     /// Otherwise attitude += drive others, others *= decay: in moves_, from here on 4 numbers for
     /// each of the others.
     std::size_t move = 0;

@@ -53,8 +53,9 @@ std::vector<IntervalDrive> drives(const Timeline& timeline) {
   for (const Interval& i : timeline.intervals) {
     IntervalDrive d;
     d.length = i.length();
-    d.gap = before ? std::max(0.0, i.t0 - before->t1) : 0.0;
+    d.gap = before && !i.begins ? std::max(0.0, i.t0 - before->t1) : 0.0;
     d.cage = i.cage;
+    d.begins = i.begins;
     d.chain = i.chain;
     d.samples = i.samples;
     d.readings = i.readings;

@@ -59,6 +59,15 @@ inline double drift_variance(const ProcessNoise& noise, const TermMask& terms, c
   }
   return variance;
 }
+/// Variance of the change of D_F of gyro `axis` from the beginning of a recording to that of
+/// another one of the same unit, for a filter [(rad/s)^2]: each walk begins at the unit's D_F, and
+/// each time it is a toss which of its two levels a bistable drift is on.
+inline double drift_variance_between_recordings(const TermMask& terms, const Theta& theta,
+                                                int axis) {
+  if (!is_bistable(terms)) return 0.0;
+  const double B = bistable_size(theta, axis);
+  return 2.0 * B * B;
+}
 inline bool drift_varies(const ProcessNoise& noise, const TermMask& terms) {
   return noise.drift_random_walk > 0.0 || walks(terms) || is_bistable(terms);
 }

@@ -15,10 +15,21 @@ inline bool begins_anew(const Timeline& timeline, std::size_t i) {
          now.rest != before.rest;
 }
 
-/// From the end of the interval before, or the beginning of the test, to the end of interval i [s].
+/// Whether another recording begins with interval i, after the first.
+inline bool follows_a_recording(const Timeline& timeline, std::size_t i) {
+  return i > 0 && timeline.intervals[i].begins;
+}
+
+/// Whether the timeline is of more than one recording.
+inline bool of_several_recordings(const Timeline& timeline) {
+  return std::ranges::count(timeline.intervals, true, &Interval::begins) > 1;
+}
+
+/// From the end of the interval before, or the beginning of its recording, to the end of interval i
+/// [s].
 inline double time_since_before(const Timeline& timeline, std::size_t i) {
   const Interval& now = timeline.intervals[i];
-  const double gap = i > 0 ? now.t0 - timeline.intervals[i - 1].t1 : 0.0;
+  const double gap = now.begins ? 0.0 : now.t0 - timeline.intervals[i - 1].t1;
   return now.length() + std::max(0.0, gap);
 }
 

@@ -38,12 +38,13 @@ void add_stretch(Timeline& timeline, const Stretch& stretch, const Position& pos
   }
 }
 
-/// When the test and each dwell began.
+/// When each recording and each dwell began.
 void set_clocks(std::vector<Interval>& intervals) {
   for (std::size_t k = 0; k < intervals.size(); ++k) {
     Interval& i = intervals[k];
     const Interval* before = k > 0 ? &intervals[k - 1] : nullptr;
-    i.t_begin = intervals.front().t0;
+    i.begins = i.begins || !before;
+    i.t_begin = i.begins ? i.t0 : before->t_begin;
     const bool goes_on = before && before->position == i.position && !before->slew && !i.cage;
     i.t_dwell = goes_on ? before->t_dwell : i.t0;
   }

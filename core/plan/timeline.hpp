@@ -19,6 +19,9 @@ struct Interval {
   int chain = 0;              ///< counts cagings: attitude is carried along within a chain
   bool slew = false;          ///< on the way to the position
   bool cage = false;          ///< the platform is caged at t0
+  /// A recording begins at t0: the first of the timeline or one that follows, nobody knows how long
+  /// after. It begins with a caging; clocks, memory and what walks begin anew with it.
+  bool begins = false;
   /// The platform stands still on the Earth, whatever it is told: a strapdown unit at rest, whose
   /// "command" is what its gyros read. What the model makes of the reading beyond the Earth's rate
   /// is measured (as zero) in place of the gimbal angles.
@@ -28,7 +31,7 @@ struct Interval {
   MisalignmentAngles loop =
       MisalignmentAngles::Zero();  ///< what the loop of coupling
                                    ///< "compensated" believes: eta x y z, xi x y z [rad]
-  double t_begin = 0.0;            ///< when the test began (several may follow each other) [s]
+  double t_begin = 0.0;            ///< when its recording began [s]
   double t_dwell = 0.0;            ///< when the dwell of the position begins [s]
   Covariates around0, around1;     ///< at t0 and t1, linear in between; zero where not known
   double samples = 1.0;   ///< of the plan, averaged by the accelerometers: less noise by its root
@@ -97,7 +100,8 @@ Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& s
 
 /// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain;
 /// longest_step: attitude change between the end points of Simpson's rule [rad]; Boole's goes over
-/// twice as much. An interval that has more substeps keeps them.
+/// twice as much. An interval that has more substeps keeps them. The clocks follow from `begins`,
+/// which the first interval has in any case.
 void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longest_step = 0.05);
 
 }  // namespace drift

@@ -71,12 +71,11 @@ void MemoryPath::advance(std::size_t i, const double* theta) {
   const bool gimbals = TermLibrary::needs(terms_).gimbals;
   const std::size_t nodes = interval.node_count();
   const double half = 0.25 * interval.length() / interval.substeps;
-  MemoryPoint m = started_ ? points_.back() : MemoryPoint{};
+  MemoryPoint m = interval.begins ? MemoryPoint{} : points_.back();
   PathPoint here =
       path_point(timeline_->nodes[interval.first_node].R_lr, interval.heading0, gimbals);
-  if (!started_) {
+  if (interval.begins) {
     change_memory(Change::start, terms_, between(here, here, 0.0, interval.omega_cmd_p), theta, m);
-    started_ = true;
   } else if (interval.cage) {
     // On the way to a caged position nobody knows more than that the gimbals turned; the heat of
     // the new attitude acts for as long as it took.
@@ -118,7 +117,6 @@ void MemoryRecord::trace(const double* theta) {
   if (!path_ || !path_->active()) return;
   theta_ = Eigen::Map<const Theta>(theta);
   points_.resize(2 * timeline_->nodes.size());
-  path_->reset();
   for (std::size_t i = 0; i < timeline_->intervals.size(); ++i) {
     const Interval& interval = timeline_->intervals[i];
     path_->advance(i, theta);

@@ -19,16 +19,15 @@ struct MemoryPoint {
 };
 
 /// Carries the memory of a model's terms along the nominal path of a timeline, interval by
-/// interval. It depends on the path and on a few parameters alone, so nobody integrates it: every
-/// step is the exact change.
+/// interval, anew in every recording. It depends on the path and on a few parameters alone, so
+/// nobody integrates it: every step is the exact change.
 class MemoryPath {
  public:
   MemoryPath(const Timeline& timeline, const DriftModel& model);
 
   bool active() const { return active_; }
-  /// Back to before the first interval.
-  void reset() { started_ = false; }
-  /// Moves on over interval i (in order) with these parameters.
+  /// Moves on over interval i (in order; from the first on as often as wanted) with these
+  /// parameters.
   void advance(std::size_t i, const double* theta);
   /// Of the interval: number 2 k is the memory at its node k, number 2 k + 1 half way to the next.
   /// Null where the model has none.
@@ -40,7 +39,6 @@ class MemoryPath {
   const Timeline* timeline_;
   TermMask terms_;
   bool active_ = false;
-  bool started_ = false;
   Vec3 gimbal_ = Vec3::Zero();  ///< where the nominal path was last
   double t_ = 0.0;
   std::vector<MemoryPoint> points_;

@@ -77,10 +77,8 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
     sensor_noise_[c].emplace(seed, run_number, Purpose::sensor_noise, c);
     process_noise_[c].emplace(seed, run_number, Purpose::process_noise, c);
   }
-  for (std::uint32_t c = 0; c < 3; ++c) {
+  for (std::uint32_t c = 0; c < 3; ++c)
     drift_level_[c].emplace(seed, run_number, Purpose::drift_level, c);
-    level_[c] = drift_level_[c]->uniform() < 0.5 ? -1.0 : 1.0;
-  }
   for (std::uint32_t c = 0; c < 6; ++c)
     wrong_samples_[c].emplace(seed, run_number, Purpose::wrong_samples, c);
   require_covariates(model_, timeline);
@@ -105,14 +103,18 @@ void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t 
 }
 
 /// All parameters as they are in interval i: the drift's random walk goes on, its level may flip.
-Theta Simulator::drift_of(const Timeline& timeline, std::size_t i) {
+/// In every recording the walk begins at the D_F that was drawn, on a level of its own.
+Theta Simulator::drift_of(const Timeline& timeline, std::size_t i, const Theta& drawn) {
   const double T = time_since_before(timeline, i);
+  const bool begins = timeline.intervals[i].begins;
+  if (begins) theta_.segment<3>(fixed_drift) = drawn.segment<3>(fixed_drift);
   for (int a = 0; a < 3; ++a)
     theta_[fixed_drift + a] += drift_walk(truth_.noise, model_.terms, theta_, a) * std::sqrt(T) *
                                process_noise_[3 + a]->normal();
   Theta now = theta_;
   if (!is_bistable(model_.terms)) return now;
   for (int a = 0; a < 3; ++a) {
+    if (begins) level_[a] = drift_level_[a]->uniform() < 0.5 ? -1.0 : 1.0;
     if (drift_level_[a]->uniform() < flip_probability(theta_, T)) level_[a] = -level_[a];
     now[fixed_drift + a] += level_[a] * bistable_size(theta_, a);
   }
@@ -135,7 +137,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
       for (int a = 0; a < 3; ++a)
         omega_noise_p[a] =
             noise.angle_random_walk / std::sqrt(interval.length()) * process_noise_[a]->normal();
-      theta = drift_of(timeline, first);
+      theta = drift_of(timeline, first, out.draw.theta);
     }
     out.theta_end = theta;
     if (disturbance_.cols() > 0)

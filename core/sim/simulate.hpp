@@ -67,7 +67,7 @@ class Simulator {
  private:
   struct Engine;
   void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
-  Theta drift_of(const Timeline& timeline, std::size_t i);
+  Theta drift_of(const Timeline& timeline, std::size_t i, const Theta& drawn);
   void measure(const Timeline& timeline, std::size_t i, Simulation& out);
   double wrong_by(std::size_t channel, const Theta& theta);
 

@@ -13,19 +13,27 @@ namespace drift::test {
 /// of noise has a covariance over time in closed form and a weight on each row. Slow, and without
 /// any of the Whitener's recursions.
 ///
-/// Time stands still but at the ends of half intervals. Accelerometer rows are read at the end of
-/// the first half, gimbal rows at the end of the second; what drives the platform acts through each
-/// half with the value it had at the end of the half before.
+/// Time stands still but at the beginning of a recording and at the ends of half intervals.
+/// Accelerometer rows are read at the end of the first half, gimbal rows at the end of the second;
+/// what drives the platform acts through each half with the value it had when that began. Nothing
+/// but the parameters ties one recording to another.
 class DenseCovariance {
  public:
   DenseCovariance(const inference::MeasuredRows& problem, const inference::NoiseModel& noise)
       : p_(problem), n_(noise), V_(MatX::Zero(problem.rows(), problem.rows())) {
-    for (std::size_t i = 0; i < p_.drives.size(); ++i)
-      for (const double gap : {p_.drives[i].gap, 0.0}) {
-        const std::size_t half = end_.size() - 1;
-        caged_.push_back(begins_chain(half) ? half : caged_.back());
-        end_.push_back(end_.back() + gap + 0.5 * p_.drives[i].length);
+    for (std::size_t i = 0; i < p_.drives.size(); ++i) {
+      if (i == 0 || p_.drives[i].begins) {
+        time_.push_back(0.0);
+        recording_.push_back(recording_.empty() ? 0 : recording_.back() + 1);
       }
+      for (const double gap : {p_.drives[i].gap, 0.0}) {
+        const std::size_t half = begin_.size();
+        caged_.push_back(begins_chain(half) ? half : caged_.back());
+        begin_.push_back(time_.size() - 1);
+        time_.push_back(time_.back() + gap + 0.5 * p_.drives[i].length);
+        recording_.push_back(recording_.back());
+      }
+    }
     add_instruments();
     for (int axis = 0; axis < 3; ++axis) add_axis(axis);
     add_lone();
@@ -75,20 +83,21 @@ class DenseCovariance {
       add(lone.sigma / p_.gimbal_sigma * read(3 + lone.axis), kernel(lone.tau));
   }
 
-  /// Weights of rows on the values at the times end_, if they drive the platform.
+  /// Weights of rows on the values at the times time_, if they drive the platform.
   template <class PerHalf>
   MatX driven(PerHalf&& per_half) const {
     MatX W = MatX::Zero(V_.rows(), times());
     for (Eigen::Index k = 0; k < V_.rows(); ++k)
       for (std::size_t half = caged_[half_of(k)]; half <= half_of(k); ++half)
-        W(k, static_cast<Eigen::Index>(half)) = p_.psi.row(k) * per_half(half);
+        W(k, static_cast<Eigen::Index>(begin_[half])) = p_.psi.row(k) * per_half(half);
     return W;
   }
   /// The same of what is read in one channel.
   MatX read(int channel) const {
     MatX W = MatX::Zero(V_.rows(), times());
     for (Eigen::Index k = 0; k < V_.rows(); ++k)
-      if (p_.tags[k].channel == channel) W(k, static_cast<Eigen::Index>(half_of(k) + 1)) = 1.0;
+      if (p_.tags[k].channel == channel)
+        W(k, static_cast<Eigen::Index>(begin_[half_of(k)] + 1)) = 1.0;
     return W;
   }
   /// A stationary Markov process of unit variance; of no end, a random walk from zero.
@@ -96,25 +105,30 @@ class DenseCovariance {
     MatX K(times(), times());
     for (Eigen::Index a = 0; a < times(); ++a)
       for (Eigen::Index b = 0; b < times(); ++b)
-        K(a, b) = std::isinf(tau) ? std::min(end_[a], end_[b])
-                                  : std::exp(-std::abs(end_[a] - end_[b]) / tau);
+        K(a, b) = recording_[a] != recording_[b] ? 0.0
+                  : std::isinf(tau)              ? std::min(time_[a], time_[b])
+                                                 : std::exp(-std::abs(time_[a] - time_[b]) / tau);
     return K;
   }
   /// A value for each interval, independent of all others.
   MatX same_interval() const {
     MatX K = MatX::Zero(times(), times());
-    for (Eigen::Index a = 0; a < times(); ++a)
-      for (Eigen::Index b = 0; b < times(); ++b) K(a, b) = a / 2 == b / 2 ? 1.0 : 0.0;
+    for (std::size_t a = 0; a < begin_.size(); ++a)
+      for (std::size_t b = 0; b < begin_.size(); ++b)
+        if (a / 2 == b / 2)
+          K(static_cast<Eigen::Index>(begin_[a]), static_cast<Eigen::Index>(begin_[b])) = 1.0;
     return K;
   }
   void add(const MatX& W, const MatX& K) { V_ += W * K * W.transpose(); }
-  Eigen::Index times() const { return static_cast<Eigen::Index>(end_.size()); }
+  Eigen::Index times() const { return static_cast<Eigen::Index>(time_.size()); }
 
   static constexpr double forever_ = std::numeric_limits<double>::infinity();
   const inference::MeasuredRows& p_;
   const inference::NoiseModel& n_;
-  std::vector<double> end_{0.0};    ///< [0] the start; [j + 1] the end of half j [s]
-  std::vector<std::size_t> caged_;  ///< half with which the chain of a half began
+  std::vector<double> time_;            ///< from the beginning of its recording on [s]
+  std::vector<std::size_t> recording_;  ///< of each time
+  std::vector<std::size_t> begin_;      ///< of each half: its time; its end is the next one
+  std::vector<std::size_t> caged_;      ///< half with which the chain of a half began
   MatX V_;
 };
 

@@ -44,22 +44,25 @@ struct NoiseStep {
 NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
                   bool first_half);
 
-/// Before anything is measured: attitude at its prior, a random walk at zero, the others
-/// stationary.
+/// Before anything is measured in a recording: attitude at its prior, a random walk at zero, the
+/// others stationary.
 OverPairs initial_covariance(const NoiseStates& s, const NoiseModel& n);
 
 /// Weight of the lone input on a row: zero on those of other channels.
 double lone_weight(const MeasuredRows& p, const LoneInput& lone, const RowTag& row);
 
-/// Walks along intervals and rows; calls cage(), move(step) and row(index, h, white sigma).
-template <class Cage, class Move, class Row>
-void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Cage&& cage,
+/// What begins anew: a recording, with all states, or a chain, with its attitude.
+enum class Anew { recording, chain };
+
+/// Walks along intervals and rows; calls begin(what), move(step) and row(index, h, white sigma).
+template <class Begin, class Move, class Row>
+void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Begin&& begin,
           Move&& move, Row&& row) {
   Eigen::Index k = 0;
   OverStates h(s.count);
   for (std::size_t i = 0; i < p.drives.size(); ++i) {
     const IntervalDrive& d = p.drives[i];
-    if (d.cage) cage(i);
+    if (d.begins || d.cage) begin(d.begins ? Anew::recording : Anew::chain);
     // Half of the interval's noise before its accelerometer rows, half before its gimbal rows.
     for (const bool accelerometer : {true, false}) {
       if (n.driven()) move(step_of(s, n, d, accelerometer));

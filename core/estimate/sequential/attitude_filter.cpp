@@ -63,6 +63,14 @@ void AttitudeFilter::hold(double variance) {
   std::fill(row(first_held), row(most_moving), 0.0);
 }
 
+void AttitudeFilter::walk_anew(std::size_t k, double variance) {
+  const auto i = static_cast<Eigen::Index>(3 + k);
+  P_.row(i).setZero();
+  P_.col(i).setZero();
+  P_(i, i) = variance;
+  std::fill(row(3 + k), row(4 + k), 0.0);
+}
+
 void AttitudeFilter::propagate(const Mat3& Phi, const Rows3& G, const Mat3& N) {
   Moving F = Moving::Identity();
   F.topLeftCorner<3, 3>() = Phi;

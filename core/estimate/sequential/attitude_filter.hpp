@@ -42,6 +42,8 @@ class AttitudeFilter {
     const auto i = static_cast<Eigen::Index>(3 + k);
     P_(i, i) += variance;
   }
+  /// That walk begins anew, at zero but for a variance.
+  void walk_anew(std::size_t k, double variance);
 
   /// Three scalars: innovation nu at the reference (NaN: not measured), H_psi, and rows over
   /// parameters, which begin at a column.

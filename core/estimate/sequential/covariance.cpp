@@ -140,6 +140,15 @@ void Covariance::recage(double sigma_attitude) {
   holds_ = false;
 }
 
+void Covariance::set_equal(std::size_t parameter, std::size_t other) {
+  settle();
+  const auto to = static_cast<Eigen::Index>(parameter), from = static_cast<Eigen::Index>(other);
+  P_pp_.row(to) = P_pp_.row(from);
+  P_pp_.col(to) = P_pp_.col(from);
+  P_pa_.row(to) = P_pa_.row(from);
+  P_pn_.row(to) = P_pn_.row(from);
+}
+
 void Covariance::hold(double variance) {
   holds_ = true;
   P_nn_ = variance * Mat3::Identity();

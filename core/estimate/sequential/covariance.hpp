@@ -41,6 +41,9 @@ class Covariance {
     P_pp_(parameter, parameter) += variance;
   }
 
+  /// A parameter becomes what another one is, whatever it was.
+  void set_equal(std::size_t parameter, std::size_t other);
+
   /// The outcome of an update with m <= 3 scalars.
   struct Update {
     Vec3 attitude = Vec3::Zero();  ///< correction psi_i [rad]

@@ -7,6 +7,10 @@ namespace {
 
 constexpr auto fixed_drift_x = TermLibrary::index("D_F_x");
 
+int axis_of(const Layout& layout, std::size_t state) {
+  return static_cast<int>(layout.params[state] - fixed_drift_x);
+}
+
 }  // namespace
 
 std::vector<std::size_t> walking_states(const FilterSpec& filter, const Layout& layout) {
@@ -21,8 +25,15 @@ std::vector<std::size_t> walking_states(const FilterSpec& filter, const Layout& 
 double walk_variance(const FilterSpec& filter, const Layout& layout, std::size_t state,
                      const Theta& theta, double duration) {
   const double sigma = layout.sigma[static_cast<Eigen::Index>(state)];
-  const auto axis = static_cast<int>(layout.params[state] - fixed_drift_x);
-  return drift_variance(filter.noise, filter.model().terms, theta, axis, duration) /
+  return drift_variance(filter.noise, filter.model().terms, theta, axis_of(layout, state),
+                        duration) /
+         (sigma * sigma);
+}
+
+double variance_between_recordings(const FilterSpec& filter, const Layout& layout,
+                                   std::size_t state, const Theta& theta) {
+  const double sigma = layout.sigma[static_cast<Eigen::Index>(state)];
+  return drift_variance_between_recordings(filter.model().terms, theta, axis_of(layout, state)) /
          (sigma * sigma);
 }
 

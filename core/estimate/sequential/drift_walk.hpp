@@ -12,5 +12,8 @@ std::vector<std::size_t> walking_states(const FilterSpec& filter, const Layout& 
 /// Variance that such a state gains over a time [s], in units of its prior's.
 double walk_variance(const FilterSpec& filter, const Layout& layout, std::size_t state,
                      const Theta& theta, double duration);
+/// The same from the beginning of a recording to that of another one.
+double variance_between_recordings(const FilterSpec& filter, const Layout& layout,
+                                   std::size_t state, const Theta& theta);
 
 }  // namespace drift

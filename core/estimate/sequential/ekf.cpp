@@ -44,11 +44,12 @@ void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
 }
 
 EstimateResult Ekf::result() const {
-  const MatX P = step_.covariance().parameters();
+  const auto n = static_cast<Eigen::Index>(step_.layout().size());
+  const MatX P = step_.covariance().parameters().topLeftCorner(n, n);
   EstimateResult r;
   r.status = status();
   r.cause = cause();
-  r.parameters = parameter_estimates(step_.layout(), start_, x(), P);
+  r.parameters = parameter_estimates(step_.layout(), start_, x().head(n), P);
   r.covariance = P;
   r.statistic = innovations().nis;
   r.measured = innovations().scalars;

@@ -41,10 +41,9 @@ class Ekf {
   const std::string& cause() const { return step_.cause(); }
   double t_diverged() const { return step_.t_diverged(); }      ///< [s]
   double sigma(std::size_t k) const { return step_.sigma(k); }  ///< of state k, SI
-  const VecX& x() const { return step_.x(); }  ///< deviations from the prior means, in prior sigmas
+  const VecX& x() const { return step_.x(); }                   ///< as IntervalStep::x()
   const Covariance& covariance() const { return step_.covariance(); }
-  /// Covariance of the states in prior sigmas, shape (size, size), without a copy. At the end of a
-  /// run.
+  /// Covariance of x(), without a copy. At the end of a run.
   auto settled_covariance() {
     step_.covariance().settle();
     return step_.covariance().settled();

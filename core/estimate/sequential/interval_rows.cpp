@@ -29,7 +29,6 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
 void IntervalRows::reset(const Theta& theta) {
   theta_ = theta;
   linearizer_.set_theta(theta_);
-  memory_.reset();
   attitude_.reset();
 }
 
@@ -83,9 +82,13 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
     held = held_noise(interval, timeline_);
     attitude_.hold(arw * arw / interval.length());
   }
-  for (std::size_t k = 0; k < attitude_.walking().size(); ++k)
-    attitude_.walk(k, walk_variance(filter_, layout_, attitude_.walking()[k], theta_,
-                                    time_since_before(timeline_, i)));
+  for (std::size_t k = 0; k < attitude_.walking().size(); ++k) {
+    const std::size_t state = attitude_.walking()[k];
+    if (follows_a_recording(timeline_, i))
+      attitude_.walk_anew(k, variance_between_recordings(filter_, layout_, state, theta_));
+    attitude_.walk(k,
+                   walk_variance(filter_, layout_, state, theta_, time_since_before(timeline_, i)));
+  }
   const Mat3& Phi_m = sensitivity_.Phi[middle];
   attitude_.propagate(Phi_m, sensitivity_.G[middle], held.to_middle);
   if (readout_.accelerometers && acc.array().isFinite().any()) {

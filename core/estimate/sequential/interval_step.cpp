@@ -24,19 +24,23 @@ IntervalStep::IntervalStep(const FilterSpec& filter, const Timeline& timeline,
       walking_(walking_states(filter, layout_)),
       linearizer_(model_, layout_, readout),
       memory_(timeline, model_),
-      P_(layout_.size(), layout_.num_rate, filter.initial_attitude),
-      x_(VecX::Zero(layout_.size())),
+      beginnings_(of_several_recordings(timeline) ? walking_.size() : 0),
+      P_(layout_.size() + beginnings_, layout_.num_rate, filter.initial_attitude),
+      x_(VecX::Zero(layout_.size() + beginnings_)),
       nodes_(most_nodes(timeline)),
       rest_G_(padded_rows(layout_.num_rate)) {
   require_covariates(model_, timeline);
 }
 
 void IntervalStep::reset(const VecX& x, const Theta& theta) {
-  x_ = x;
+  x_.head(x.size()) = x;
   theta_ = theta;
   linearizer_.set_theta(theta_);
-  memory_.reset();
   P_.reset(filter_.initial_attitude);
+  for (std::size_t k = 0; k < beginnings_; ++k) {
+    P_.set_equal(layout_.size() + k, walking_[k]);
+    x_[layout_.size() + k] = x_[walking_[k]];
+  }
   phi_.setZero();
   sums_ = {};
   status_ = EstimateStatus::ok;
@@ -48,6 +52,7 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   taken_ = {};
   if (status_ != EstimateStatus::ok) return taken_;
   const Interval& interval = timeline_.intervals[i];
+  if (follows_a_recording(timeline_, i)) let_drift_begin_anew();
   linearise(i);
   let_drift_vary(time_since_before(timeline_, i));
 
@@ -151,8 +156,9 @@ Vec3 IntervalStep::gated(const Vec3& nu, const Sensitivity& H, double noise) con
   if (H.rate.cols() > 0) H_x.leftCols(H.rate.cols()) = H.rate;
   if (H.par.cols() > 0) H_x.rightCols(H.par.cols()) = H.par;
   const Mat3 cross = H_x * P_.cross().topRows(n) * H.psi.transpose();
+  const MatX P = P_.parameters().topLeftCorner(n, n);
   const Mat3 S = H.psi * P_.attitude() * H.psi.transpose() + cross + cross.transpose() +
-                 H_x * P_.parameters() * H_x.transpose() + noise * noise * Mat3::Identity();
+                 H_x * P * H_x.transpose() + noise * noise * Mat3::Identity();
   const double gate = outlier_gate(theta_);
   Vec3 inside = nu;
   for (int k = 0; k < 3; ++k)
@@ -185,6 +191,17 @@ void IntervalStep::learn() {
 void IntervalStep::let_drift_vary(double duration) {
   for (const std::size_t k : walking_)
     P_.add_variance(k, walk_variance(filter_, layout_, k, theta_, duration));
+}
+
+/// In every recording a drift that varies begins where it did in the first.
+void IntervalStep::let_drift_begin_anew() {
+  for (std::size_t k = 0; k < beginnings_; ++k) {
+    const std::size_t state = walking_[k], beginning = layout_.size() + k;
+    P_.set_equal(state, beginning);
+    P_.add_variance(state, variance_between_recordings(filter_, layout_, state, theta_));
+    x_[state] = x_[beginning];
+  }
+  if (beginnings_ > 0) learn();
 }
 
 const MemoryPoint* IntervalStep::memory_at(std::size_t node) const {

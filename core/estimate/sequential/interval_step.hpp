@@ -24,7 +24,7 @@ class IntervalStep {
   /// The timeline must outlive the step.
   IntervalStep(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
 
-  /// Before the first interval, with the covariance of the priors. x: the estimate, as x() has it;
+  /// Before the first interval, with the covariance of the priors. x: the estimate, of the layout;
   /// theta: the parameters to linearise about. Allocates nothing.
   void reset(const VecX& x, const Theta& theta);
 
@@ -38,7 +38,9 @@ class IntervalStep {
   Taken process(std::size_t i, const Vec3& acc, const Vec3& gimbal);
 
   const Layout& layout() const { return layout_; }
-  /// The estimate, in prior sigmas: deviations from the prior means.
+  /// The estimate, in prior sigmas: deviations from the prior means. Of several recordings, behind
+  /// the layout's states, what those that vary were at the beginning of the first; likewise in
+  /// covariance().
   const VecX& x() const { return x_; }
   const Theta& theta() const { return theta_; }  ///< that the next interval is linearised about
   /// Estimated rotation vector of the platform against its nominal attitude, at the end of the last
@@ -74,6 +76,7 @@ class IntervalStep {
   void notice_divergence(const Covariance::Update& update, double t);
   void learn();
   void let_drift_vary(double duration);
+  void let_drift_begin_anew();
   const MemoryPoint* memory_at(std::size_t node) const;
 
   FilterSpec filter_;
@@ -85,6 +88,7 @@ class IntervalStep {
   Linearizer linearizer_;
   IntervalSensitivity sensitivity_;
   MemoryPath memory_;
+  std::size_t beginnings_;  ///< states behind the layout's, which nothing reads: see x()
   Covariance P_;
   VecX x_;
   Theta theta_ = Theta::Zero();

@@ -28,9 +28,17 @@ LinearProblem short_problem() {
   return linear_problem(filter, {timeline, readout, measured}, fit, {});
 }
 
-/// Exact: L^-1 X with V = L L', rows in the order of time.
-void expect_equals_cholesky(const NoiseModel& noise) {
+/// The same as two recordings of three positions each.
+LinearProblem two_recordings() {
   LinearProblem problem = short_problem();
+  IntervalDrive& fourth = problem.drives[problem.drives.size() / 2];
+  EXPECT_TRUE(fourth.cage);
+  fourth.begins = true;
+  return problem;
+}
+
+/// Exact: L^-1 X with V = L L', rows in the order of time.
+void expect_equals_cholesky(const NoiseModel& noise, LinearProblem problem) {
   problem.weight[5] = 0.3;
   const Whitener whitener(problem, noise);
   const Eigen::LLT<MatX> llt(DenseCovariance(problem, noise).all());
@@ -42,6 +50,10 @@ void expect_equals_cholesky(const NoiseModel& noise) {
             1e-8 * expected.cwiseAbs().maxCoeff());
   EXPECT_NEAR(whitener.log_det(), 2.0 * L.diagonal().array().log().sum(),
               1e-7 * static_cast<double>(problem.rows()));
+}
+void expect_equals_cholesky(const NoiseModel& noise) {
+  expect_equals_cholesky(noise, short_problem());
+  expect_equals_cholesky(noise, two_recordings());
 }
 
 TEST(Whitener, EqualsDenseCholeskyForWhiteNoise) {
@@ -98,6 +110,24 @@ TEST(Whitener, WithoutProcessNoiseAChainDoesNotSeeAnother) {
       EXPECT_EQ(white[k], 0.0) << k;
     }
   EXPECT_NE(white[8], 0.0);
+}
+
+TEST(Whitener, ARecordingDoesNotSeeTheOneBeforeWhateverTheNoise) {
+  NoiseModel noise;
+  noise.drift_random_walk = 0.01 * deg_per_h / 60.0;
+  noise.markov_drift = 0.02 * deg_per_h;
+  noise.acc_markov = 4e-6;
+  noise.lone = {Equation::accelerometer, 0, 3e-6, 300.0};
+  const LinearProblem problem = two_recordings();
+  MatX one = MatX::Zero(problem.rows(), 1);
+  one(0, 0) = 1.0;
+  const VecX white = Whitener(problem, noise).apply(one);
+  for (Eigen::Index k = 0; k < problem.rows(); ++k) {
+    if (problem.tags[static_cast<std::size_t>(k)].position >= 3) {
+      EXPECT_EQ(white[k], 0.0) << k;
+    }
+  }
+  EXPECT_NE(Whitener(short_problem(), noise).apply(one)(problem.rows() - 1, 0), 0.0);
 }
 
 TEST(Whitener, ColumnsFromALaterRowOnAreTheSameAsZerosBefore) {

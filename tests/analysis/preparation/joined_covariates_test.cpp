@@ -56,6 +56,16 @@ TEST(JoinedCovariates, DeviateFromOneMean) {
                 made.timeline.intervals[k].around1[temperature], 1e-11);
 }
 
+TEST(JoinedRecordings, BeginEachAnew) {
+  const RecordedTest made = recorded_test(study(), {recorded(), recorded()});
+  const auto& all = made.timeline.intervals;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const bool second = k >= made.ends.front();
+    EXPECT_EQ(all[k].begins, k == 0 || k == made.ends.front()) << k;
+    EXPECT_EQ(all[k].t_begin, all[second ? made.ends.front() : 0].t0) << k;
+  }
+}
+
 TEST(PlannedTest, HasTheFieldThatWasRecordedWhereNoneIsDeclared) {
   constexpr CovariateSpec field = covariate("field");
   mc::Study s = study();
