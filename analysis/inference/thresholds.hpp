@@ -199,8 +199,8 @@ struct WeighLimits {
   static constexpr double second_cause = 20.0;
   /// [log] that more parameters must bring: 20:1. Test: CredibleSet.MoreParametersMustBring...
   static constexpr double more_parameters = 3.0;
-  /// Forms of an unknown input: 7 kinds on 3 axes (of one instrument alone 5: then it is too dear).
-  /// Test: as `far_better`.
+  /// Forms of an unknown input: 7 kinds on 3 axes (of one instrument alone 5: then it is too dear;
+  /// of several recordings 10: e^0.4 too cheap). Test: as `far_better`.
   static constexpr double forms = 21.0;
   /// [log] by which an unknown input leaves a cause behind: 150:1; and the part of the cause's own
   /// evidence that linearisation may be wrong by; tuned. Test: CredibleSet.SomethingUnknown...

@@ -252,6 +252,25 @@ double log_period(const Fitted& e, const inference::NoiseModel& white) {
       .log_evidence();
 }
 
+/// An unknown input in one equation and the white noise that is left beside it.
+struct WithInput {
+  NoiseEstimate noise;
+  double log_evidence = never;  ///< of both
+};
+
+/// The likeliest input. It is looked for on the white noise without it, which a large one makes
+/// large; beside one of free form the noise is estimated anew, as it is beside all that competes.
+WithInput with_input(const Fitted& e, const NoiseEstimate& white, UnknownInputs inputs) {
+  const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.model);
+  const double log_lone = log_free_form(lone, e.problem),
+               log_periodic =
+                   inputs == UnknownInputs::periodic_too ? log_period(e, white.model) : never;
+  if (log_periodic > log_lone) return {white, white.log_evidence() + log_periodic};
+  WithInput out{beside(e, lone.input)};
+  out.log_evidence = out.noise.log_evidence() + log_price_of_free_form(e.problem);
+  return out;
+}
+
 }  // namespace
 
 std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, UnknownInputs inputs) {
@@ -263,20 +282,14 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, Unk
     if (Model m = models.climbed(begin);
         !m.in.empty() && (best.in.empty() || m.log_weight > best.log_weight))
       best = std::move(m);
-  const Model white = models.white({});
-  const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.noise.model);
-  const double log_lone = log_free_form(lone, e.problem),
-               log_periodic =
-                   inputs == UnknownInputs::periodic_too ? log_period(e, white.noise.model) : never;
-  const double of_input = white.log_weight + std::max(log_lone, log_periodic) +
-                          std::log(PosteriorPrior::outside) - std::log(PosteriorPrior::nothing);
+  const WithInput with = with_input(e, models.white({}).noise, inputs);
+  const double of_input = std::log(PosteriorPrior::outside) + with.log_evidence;
   const double of_effects = models.log_sum_of_effects();
   const double top = std::max({alone.log_weight, of_effects, of_input});
   const double noise = std::exp(alone.log_weight - top), effects = std::exp(of_effects - top),
                input = std::exp(of_input - top), p = noise / (noise + effects + input);
   if (p > inference::SearchLimits::credible) return std::nullopt;
-  if (input > effects && log_periodic > log_lone) return NoiseSettled{white.noise, 1.0 - p};
-  if (input > effects) return NoiseSettled{beside(e, lone.input), 1.0 - p};
+  if (input > effects) return NoiseSettled{with.noise, 1.0 - p};
   if (best.in.empty()) return std::nullopt;
   return NoiseSettled{std::move(best.noise), 1.0 - p};
 }

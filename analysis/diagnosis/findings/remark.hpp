@@ -54,7 +54,8 @@ struct SamplesLeftOut {
 /// No candidate fits; an unknown input of free form in one equation would.
 struct FreeInputExplains {
   std::string equation;
-  double gain = 0.0;  ///< of twice the log likelihood
+  double gain = 0.0;      ///< of twice the log likelihood
+  bool constant = false;  ///< in each recording
 };
 /// No candidate fits; a sinusoid in one equation would. Or beside a cause that fits there is one.
 struct PeriodExplains {

@@ -25,12 +25,16 @@ std::vector<Kind> kinds_of(const LinearProblem& problem) {
   std::vector<Kind> all{{Equation::rate, forever, 1e-3 * unit::deg_per_h_per_sqrt_h.to_si},
                         {Equation::rate, 900.0, 1e-3 * deg_per_h},
                         {Equation::rate, 3600.0, 1e-3 * deg_per_h}};
+  constexpr double still = LoneInput::constant;
+  const bool several = std::ranges::count(problem.drives, true, &IntervalDrive::begins) > 1;
+  if (several) all.push_back({Equation::rate, still, 1e-3 * deg_per_h});
   const auto read = [&](bool accelerometer) {
     return std::any_of(problem.tags.begin(), problem.tags.end(),
                        [&](auto& t) { return t.accelerometer() == accelerometer; });
   };
   const bool of_case = std::ranges::any_of(problem.drives, &IntervalDrive::rest);
-  for (const double tau : {300.0, 1800.0}) {
+  for (const double tau : {300.0, 1800.0, still}) {
+    if (tau == still && !several) continue;
     if (read(true)) all.push_back({Equation::accelerometer, tau, 0.05 * problem.acc_sigma});
     if (read(false) && !of_case)
       all.push_back({Equation::gimbal, tau, 0.05 * problem.gimbal_sigma});

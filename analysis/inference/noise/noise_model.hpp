@@ -8,8 +8,10 @@
 namespace drift::inference {
 
 /// Something unknown, of free form, in one equation alone: a first-order Markov process; with
-/// infinite tau a random walk from zero.
+/// infinite tau a random walk from zero, with `constant` a value that holds for a whole recording.
 struct LoneInput {
+  /// So much longer than any recording that exp(-t / tau) is 1.
+  static constexpr double constant = std::numeric_limits<double>::max();
   Equation equation = Equation::rate;  ///< gyro drift, error of an accelerometer, of a resolver
   int axis = 0;
   double sigma =

@@ -187,18 +187,19 @@ Json advice_json(const std::vector<Advice>& advice) {
 }
 
 /// What the recovered input says of each equation; the series itself is in residual_signal.csv.
-Json equations_json(const std::vector<RecoveredSignal>& signals) {
+Json equations_json(const Diagnosis& d) {
   Json all = Json::array();
-  for (const RecoveredSignal& s : signals)
+  for (const RecoveredSignal& s : d.signals) {
+    const std::string shape = shape_text(s, d.where.recordings);
     all.push_back(
         {{"equation", s.equation},
          {"unit", s.unit},
-         {"shape",
-          shape_text(s).empty() ? s.equation : fmt::format("{}: {}", s.equation, shape_text(s))},
+         {"shape", shape.empty() ? s.equation : fmt::format("{}: {}", s.equation, shape)},
          {"onset_s", s.shape.kind == Shape::Kind::onset ? s.shape.seconds : std::nan("")},
          {"period_s", s.shape.kind == Shape::Kind::period ? s.shape.seconds : std::nan("")},
          {"covariate", text_or_null(s.shape.covariate)},
          {"correlation", s.shape.covariate.empty() ? std::nan("") : s.correlation}});
+  }
   return all;
 }
 
@@ -259,7 +260,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["advice"] = advice_json(d.advice);
   out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);
   out["noise"] = rows_json(noise_table(d));
-  out["equations"] = equations_json(d.signals);
+  out["equations"] = equations_json(d);
   out["cosines"] = cosines_json(d.cosines);
   out["inseparable"] = twins_in_words(d.inseparable, instrument_of(d));
   out["remarks"] = remarks_of(d);

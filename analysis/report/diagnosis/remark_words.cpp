@@ -91,9 +91,9 @@ struct Words {
 
   std::string operator()(const FreeInputExplains& r) const {
     return fmt::format(
-        "An unknown input of free form in {} alone would explain it (twice the log likelihood "
-        "better by {:.1f}).",
-        r.equation, r.gain);
+        "{} in {} alone{} would explain it (twice the log likelihood better by {:.1f}).",
+        r.constant ? "An unknown constant" : "An unknown input of free form", r.equation,
+        r.constant ? ", another one in each recording," : "", r.gain);
   }
 
   std::string operator()(const PeriodExplains& r) const {

@@ -9,7 +9,7 @@ std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& s
       "# what the nominal model does not explain, as the input that would explain it; sigma: 1 "
       "standard deviation\n";
   for (const auto& s : signals)
-    if (const std::string shape = shape_text(s); !shape.empty())
+    if (const std::string shape = shape_text(s, recordings); !shape.empty())
       facts += fmt::format("# {} = {}\n", csv_of(s.equation), csv_of(shape));
   for (const auto& r : recordings)
     facts +=

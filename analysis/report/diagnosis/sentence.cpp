@@ -32,8 +32,17 @@ std::string located_shape_text(const Diagnosis& d) {
   if (d.proposal || d.signals.empty() || d.signals.front().shape.kind == Shape::Kind::unknown)
     return "";
   const RecoveredSignal& s = d.signals.front();
-  if (s.equation == d.where.equation) return ": " + shape_text(s);
-  return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape_text(s));
+  const std::string shape = shape_text(s, d.where.recordings);
+  if (s.equation == d.where.equation) return ": " + shape;
+  return fmt::format(". As an input to the {}: {}", equation_in_words(s.equation), shape);
+}
+
+/// Whether a noise is nearly one constant in each of several recordings: its time constant is
+/// longer than they are.
+bool holds_in_each(const inference::NoiseFinding& f, const std::vector<RecordingSpan>& recordings) {
+  return !recordings.empty() && std::ranges::all_of(recordings, [&](const RecordingSpan& r) {
+    return f.tau_s > r.end_s - r.start_s;
+  });
 }
 
 std::string noise_text(const Diagnosis& d) {
@@ -42,10 +51,12 @@ std::string noise_text(const Diagnosis& d) {
   std::vector<std::string> parts;
   for (const inference::NoiseFinding& f : d.noise)
     if (f.significant && f.component != "outliers")
-      parts.push_back(fmt::format("{} ({}: {})", noise_in_words(f.component), f.component,
-                                  std::isfinite(f.factor)
-                                      ? fmt::format("{:.2f} times {}", f.factor, expected)
-                                      : fmt::format("{:.2g} {}", f.value, f.unit)));
+      parts.push_back(fmt::format(
+          "{}{} ({}: {})", noise_in_words(f.component),
+          holds_in_each(f, d.where.recordings) ? " that is nearly constant in each recording" : "",
+          f.component,
+          std::isfinite(f.factor) ? fmt::format("{:.2f} times {}", f.factor, expected)
+                                  : fmt::format("{:.2g} {}", f.value, f.unit)));
   return parts.empty() ? ""
                        : fmt::format(" The noise is not {}: {}.", expected, listed(parts, "and"));
 }

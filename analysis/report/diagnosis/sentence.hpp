@@ -12,7 +12,8 @@ namespace drift::report {
 std::string patch_text(const diagnosis::Diagnosis& d);
 
 /// What a recovered signal looks like: "grows evenly with time (correlation 0.97)".
-std::string shape_text(const diagnosis::RecoveredSignal& signal);
+std::string shape_text(const diagnosis::RecoveredSignal& signal,
+                       const std::vector<diagnosis::RecordingSpan>& recordings = {});
 
 /// The verdict for a test engineer: words first, keys and numbers in brackets. Alternatives of an
 /// ambiguous verdict are numbered as in the table of causes; those whose signatures are one

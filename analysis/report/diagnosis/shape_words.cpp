@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words.hpp"
 
 namespace drift::report {
 namespace {
 
-std::string bare(const diagnosis::Shape& s) {
+using diagnosis::RecordingSpan;
+
+std::string bare(const diagnosis::Shape& s, const std::vector<RecordingSpan>& recordings) {
   using Kind = diagnosis::Shape::Kind;
   switch (s.kind) {
     case Kind::unknown:
@@ -24,7 +27,7 @@ std::string bare(const diagnosis::Shape& s) {
       return fmt::format("dies away within every position with a time constant of about {:.0f} min",
                          s.seconds / 60.0);
     case Kind::onset:
-      return fmt::format("sets in at {:.0f} s and stays", s.seconds);
+      return onset_text(s.seconds, recordings);
     case Kind::period:
       return s.seconds < 7200.0
                  ? fmt::format("swings with a period of about {:.3g} min", s.seconds / 60.0)
@@ -56,11 +59,24 @@ std::string bare(const diagnosis::Shape& s) {
 
 }  // namespace
 
-std::string shape_text(const diagnosis::RecoveredSignal& signal) {
+std::string onset_text(double t, const std::vector<RecordingSpan>& recordings) {
+  std::size_t k = recordings.size();
+  while (k > 0 && t < recordings[k - 1].start_s) --k;
+  if (k == 0) return fmt::format("sets in at {:.0f} s and stays", t);
+  const RecordingSpan& r = recordings[k - 1];
+  if (k == 1 || t > r.start_s)
+    return fmt::format("sets in at {:.0f} s of {} and stays", t - r.offset_s, r.name);
+  const std::string number = fmt::format("recording {}", k);
+  return fmt::format("is another from {} on",
+                     r.name == number ? number : fmt::format("{} ({})", number, r.name));
+}
+
+std::string shape_text(const diagnosis::RecoveredSignal& signal,
+                       const std::vector<RecordingSpan>& recordings) {
   using Kind = diagnosis::Shape::Kind;
   const Kind kind = signal.shape.kind;
   const bool by_itself = kind == Kind::period && signal.correlation == 0.0;  // seen by its spectrum
-  std::string words = bare(signal.shape);
+  std::string words = bare(signal.shape, recordings);
   if (kind == Kind::unknown || kind == Kind::nothing || kind == Kind::none_simple ||
       kind == Kind::of_form || kind == Kind::follows_nothing || by_itself)
     return words;

@@ -163,7 +163,7 @@ Section where(const Diagnosis& d) {
   section.add(heat_figure(d.where, d.verdict == Verdict::consistent));
   section.add(signal_figure(d));
   for (const RecoveredSignal& s : d.signals)
-    if (const std::string shape = shape_text(s); !shape.empty())
+    if (const std::string shape = shape_text(s, d.where.recordings); !shape.empty())
       section.add({Paragraph{fmt::format("{}: {}", s.equation, shape)}});
   return section;
 }

@@ -159,9 +159,7 @@ std::string where_sentence(const Where& where) {
     out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "",
                        listed(parts, "and"));
   if (std::isfinite(where.onset_s)) {
-    const RecordingSpan* r = recording_at(where.recordings, where.onset_s);
-    out += fmt::format("; it sets in at {:.0f} s{} and stays",
-                       where.onset_s - (r ? r->offset_s : 0.0), r ? " of " + r->name : "");
+    out += "; it " + onset_text(where.onset_s, where.recordings);
   } else if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
     const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));

@@ -39,6 +39,10 @@ std::vector<std::string> remarks_of(const diagnosis::Diagnosis& diagnosis);
 const diagnosis::RecordingSpan* recording_at(
     const std::vector<diagnosis::RecordingSpan>& recordings, double t_s);
 
+/// When something set in that stays: "sets in at 400 s of b.csv and stays", "is another from
+/// recording 2 (b.csv) on" where that is at its beginning.
+std::string onset_text(double t_s, const std::vector<diagnosis::RecordingSpan>& recordings);
+
 /// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
 std::string channel_in_words(const std::string& name);
 

@@ -44,12 +44,17 @@ class LibraryPrior {
   std::map<std::string, double> offers_;
 };
 
-/// Log evidence of something of free form in one equation against nothing beside the model: where
-/// it sits and how fast it varies is one of WeighLimits::forms, its size has Schwarz's price.
+/// What must be added to half of the gain of something of free form in one equation for its log
+/// evidence: where it sits and how fast it varies is one of WeighLimits::forms, its size has
+/// Schwarz's price.
+inline double log_price_of_free_form(const inference::MeasuredRows& rows) {
+  return -std::log(inference::WeighLimits::forms) -
+         0.5 * std::log(static_cast<double>(rows.rows()));
+}
+/// Its log evidence against nothing beside the model.
 inline double log_free_form(const inference::LoneEffect& lone,
                             const inference::MeasuredRows& rows) {
-  return 0.5 * lone.gain - std::log(inference::WeighLimits::forms) -
-         0.5 * std::log(static_cast<double>(rows.rows()));
+  return 0.5 * lone.gain + log_price_of_free_form(rows);
 }
 
 }  // namespace drift::search

@@ -63,6 +63,31 @@ TEST(LoneInput, IsFoundInItsEquation) {
   }
 }
 
+TEST(LoneInput, AnotherConstantInEachRecordingIsFoundAsThat) {
+  const Bench b(8.0);
+  LinearProblem several = b.problem;
+  IntervalDrive& fourth = several.drives[several.drives.size() / 2];  // of six positions
+  ASSERT_TRUE(fourth.cage);
+  fourth.begins = true;
+  for (const LoneInput& input :
+       {LoneInput{Equation::accelerometer, 2, 4.0 * several.acc_sigma, LoneInput::constant},
+        LoneInput{Equation::gimbal, 0, 4.0 * several.gimbal_sigma, LoneInput::constant},
+        LoneInput{Equation::rate, 1, 0.2 * deg_per_h, LoneInput::constant}}) {
+    LinearProblem problem = several;
+    NoiseModel noise;
+    noise.lone = input;
+    Stream random(10, 0, Purpose::test);
+    VecX z(problem.rows());
+    for (double& v : z) v = random.normal();
+    problem.r0 = Whitener(problem, noise).colour(z);
+    const LoneEffect found = strongest_lone_input(problem, {});
+    EXPECT_LT(found.p_value, 1e-4);
+    EXPECT_EQ(found.input.equation, input.equation);
+    EXPECT_EQ(found.input.axis, input.axis) << found.equation;
+    EXPECT_EQ(found.input.tau, input.tau) << found.equation;
+  }
+}
+
 TEST(Evidence, IsThatOfTheProjectorWithTheColumnInTheMean) {
   Bench b(8.0);
   b.problem.r0 += b.problem.extra.col(2);

@@ -78,6 +78,7 @@ TEST(Whitener, EqualsDenseCholeskyForAnInputInOneEquation) {
   for (const LoneInput& lone : {LoneInput{Equation::rate, 1, 0.01 * deg_per_h / 60.0, infinite},
                                 LoneInput{Equation::rate, 2, 0.01 * deg_per_h, 900.0},
                                 LoneInput{Equation::accelerometer, 0, 3e-6, 300.0},
+                                LoneInput{Equation::accelerometer, 1, 3e-6, LoneInput::constant},
                                 LoneInput{Equation::gimbal, 2, 2e-5, 300.0}}) {
     NoiseModel noise;
     noise.drift_random_walk = 0.005 * deg_per_h / 60.0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/model_builders.hpp"
+#include "tests/support/two_recordings.hpp"
 
 namespace drift::search::settle_noise_test {
 namespace {
@@ -58,6 +59,52 @@ TEST(SettleNoise, TwoEffectsTogetherAreNoNoise) {
   const auto s = settled(e);
   ASSERT_TRUE(s);
   EXPECT_GT(s->probability, 0.95);
+}
+
+/// The residuals of noise alone, of the instruments and in one equation.
+void draw(Fitted& e, const inference::LoneInput& input) {
+  inference::NoiseModel noise;
+  noise.lone = input;
+  Stream random(9, 0, Purpose::test);
+  VecX z(e.problem.rows());
+  for (double& v : z) v = random.normal();
+  e.problem.r0 = inference::Whitener(e.problem, noise).colour(z);
+}
+
+/// A large input makes white noise that has to stand for it large, too: under that it is no more
+/// than noise of all three instruments is.
+TEST(SettleNoise, ALargeInputInOneEquationIsNoNoise) {
+  Fitted e = bench();
+  draw(e, {inference::Equation::accelerometer, 0, 20.0 * e.problem.acc_sigma, 1800.0});
+  const auto s = settled(e);
+  ASSERT_TRUE(s);
+  EXPECT_GT(s->probability, 0.95);
+  EXPECT_FALSE(s->noise.driven);
+  // What is left is as declared; of 360 rows of each of the two others, five sigma.
+  EXPECT_NEAR(s->noise.model.acc_factor, 1.0, 5.0 / std::sqrt(2.0 * 720.0));
+}
+
+TEST(SettleNoise, ALargeBiasOfOneRecordingIsNoNoise) {
+  const Timeline once = preset_timeline("six", CommandLaw::free, 1200.0, 60.0), both = twice(once);
+  const Readout readout;
+  Fitted e;
+  e.filter = base_filter(Coupling::eq5);
+  e.filter.active = only({"D_F"}) | params_named("accelerometer");
+  TruthSpec truth = base_truth(Coupling::eq5);
+  truth.active = e.filter.active;
+  const TruthDraw unit = draw_truth(truth, once.chains, 8, 0);
+  Simulator simulator(truth, readout);
+  Measurements measured = one_after_the_other(simulator.run(once, unit, 8, 0).measured,
+                                              simulator.run(once, unit, 8, 1).measured);
+  measured.acc.row(1).tail(once.intervals.size()).array() += 200e-6;
+  const MeasuredTest test{both, readout, measured};
+  e.problem = inference::linear_problem(e.filter, test,
+                                        fit_batch(e.filter, test, make_layout(e.filter).theta), {});
+  const auto s = settled(e);
+  ASSERT_TRUE(s);
+  EXPECT_GT(s->probability, 0.95);
+  EXPECT_FALSE(s->noise.driven);
+  EXPECT_NEAR(s->noise.model.acc_factor, 1.0, 5.0 / std::sqrt(2.0 * 720.0));
 }
 
 TEST(SettleNoise, NoiseOfAllThreeGyrosIsMoreProbableThanEffects) {

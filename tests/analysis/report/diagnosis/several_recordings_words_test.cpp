@@ -1,0 +1,73 @@
+// What is said of several recordings: which of them.
+#include <gtest/gtest.h>
+
+#include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words.hpp"
+
+namespace drift::several_recordings_words_test {
+namespace {
+
+const std::vector<diagnosis::RecordingSpan> two{{"a.csv", 0.0, 900.0, 0.0},
+                                                {"b.csv", 900.0, 3600.0, 800.0}};
+
+TEST(SeveralRecordingsWords, SayFromWhichOneOnSomethingIsAnother) {
+  diagnosis::RecoveredSignal s;
+  s.shape.kind = diagnosis::Shape::Kind::onset;
+  s.correlation = 0.9;
+  s.shape.seconds = 900.0;
+  EXPECT_EQ(report::shape_text(s, two),
+            "is another from recording 2 (b.csv) on (correlation 0.90)");
+  EXPECT_EQ(report::shape_text(s), "sets in at 900 s and stays (correlation 0.90)");
+  s.shape.seconds = 1200.0;
+  EXPECT_EQ(report::shape_text(s, two), "sets in at 400 s of b.csv and stays (correlation 0.90)");
+  diagnosis::Where where;
+  where.equation = "accelerometer x";
+  where.recordings = two;
+  where.onset_s = 900.0;
+  EXPECT_EQ(report::where_sentence(where),
+            "The misfit is in the accelerometer x; it is another from recording 2 (b.csv) on.");
+  where.onset_s = 300.0;
+  EXPECT_EQ(report::where_sentence(where),
+            "The misfit is in the accelerometer x; it sets in at 300 s of a.csv and stays.");
+  where.recordings = {{"recording 1", 0.0, 900.0, 0.0}, {"recording 2", 900.0, 3600.0, 900.0}};
+  where.onset_s = 900.0;
+  EXPECT_EQ(report::where_sentence(where),
+            "The misfit is in the accelerometer x; it is another from recording 2 on.");
+}
+
+TEST(SeveralRecordingsWords, SayOfAConstantThatItIsAnotherInEach) {
+  EXPECT_EQ(report::in_words(diagnosis::remark::FreeInputExplains{"accelerometer x", 105.06, true}),
+            "An unknown constant in accelerometer x alone, another one in each recording, would "
+            "explain it (twice the log likelihood better by 105.1).");
+  EXPECT_EQ(report::in_words(diagnosis::remark::FreeInputExplains{"gimbal outer", 20.0}),
+            "An unknown input of free form in gimbal outer alone would explain it (twice the log "
+            "likelihood better by 20.0).");
+}
+
+TEST(SeveralRecordingsWords, SayOfNoiseWhereItIsNearlyConstantInEach) {
+  diagnosis::Diagnosis d;
+  d.verdict = diagnosis::Verdict::consistent;
+  inference::NoiseFinding f;
+  f.component = inference::acc_markov.name;
+  f.value = 18.0;
+  f.unit = "ug";
+  f.factor = std::numeric_limits<double>::quiet_NaN();
+  f.significant = true;
+  f.tau_s = 3000.0;
+  d.noise = {f};
+  const std::string words = "slowly wandering accelerometer error",
+                    constant = words + " that is nearly constant in each recording";
+  const auto says = [&](const std::string& text) {
+    return report::sentence(d).find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(says(words + " (accelerometer_markov: 18 ug)"));
+  d.where.recordings = two;  // of 2700 s at most
+  EXPECT_TRUE(says(constant + " (accelerometer_markov: 18 ug)")) << report::sentence(d);
+  d.noise.front().tau_s = 2000.0;
+  EXPECT_FALSE(says(constant));
+}
+
+}  // namespace
+}  // namespace drift::several_recordings_words_test
