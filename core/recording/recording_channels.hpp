@@ -42,7 +42,8 @@ std::optional<Vec3> measured(const Recording& recording, const ChannelTriple& ch
                              std::size_t row);
 
 /// Whether a row that joins others carries the channel as read at its end: the place in the test,
-/// and what is an attitude; the rest is averaged.
+/// and what is an attitude. Covariates are taken at the end as well, of several readings; the rest
+/// is averaged.
 bool read_at_the_end(std::string_view name);
 
 /// A name that CSV, HDF5 and MATLAB can all hold: a letter, then letters, digits and underscores,

@@ -7,6 +7,7 @@
 #include "core/base/check.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/bridged_mean.hpp"
+#include "core/recording/rows/line_at_end.hpp"
 
 namespace drift {
 namespace {
@@ -128,11 +129,14 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
     Channel joined{c.name, c.unit, {}};
     joined.values.reserve(spans.size());
     const bool at_the_end = read_at_the_end(c.name);
+    const bool covariate = is_covariate(c.name, RecordingKind::platform);
     const bool accelerometer = c.name.starts_with("acc_");
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const RowSpan& s = spans[k];
       if (at_the_end) {
         joined.values.push_back(c.values[s.end - 1]);
+      } else if (covariate) {
+        joined.values.push_back(line_at_end(time, c.values, s));
       } else if (accelerometer && s.end > s.first + 1) {
         const BridgedMean mean =
             bridged_mean(recording.begins, time, c.values, s, joiner.turned(s));

@@ -19,7 +19,8 @@ struct JoinLimits {
 /// Accelerometers: bridged_mean(), and `samples` says how many samples of the plan it is worth: as
 /// many as it lasts, for a row is the mean over its own interval. Where the platform slews a
 /// joined row turns by 0.6 rad at most, so that holes can be bridged. Gimbal angles, case heading
-/// and the loop's belief: as read at the end. Commands and covariates: mean weighted by time.
+/// and the loop's belief: as read at the end. Covariates: what they are there (line_at_end()).
+/// Commands: mean weighted by time.
 Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
                       const JoinLimits& limits);
 

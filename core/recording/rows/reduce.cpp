@@ -9,6 +9,7 @@
 #include "core/base/check.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/angles_around.hpp"
+#include "core/recording/rows/line_at_end.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 #include "core/stats/median.hpp"
 
@@ -180,11 +181,14 @@ Recording reduced(const Recording& recording, double interval, std::size_t facto
     Channel reduced_channel{c.name, c.unit, {}};
     reduced_channel.values.reserve(stretches.size());
     const bool at_the_end = read_at_the_end(c.name);
+    const bool covariate = is_covariate(c.name, RecordingKind::platform);
     for (const Joined& s : stretches) {
       // The rows the stretch spans, gaps in time counted; rows cut off by a command are no gap.
       const double expected = std::round((t[s.end - 1] - t[s.first]) / interval) + 1.0;
-      reduced_channel.values.push_back(
-          at_the_end ? c.values[s.end - 1] : bridged_mean(t, c.values, s, interval, expected));
+      reduced_channel.values.push_back(at_the_end ? c.values[s.end - 1]
+                                       : covariate
+                                           ? line_at_end(t, c.values, {s.first, s.end})
+                                           : bridged_mean(t, c.values, s, interval, expected));
     }
     out.channels.push_back(std::move(reduced_channel));
   }

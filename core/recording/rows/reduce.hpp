@@ -19,10 +19,11 @@ enum class Angles { at_the_end, around_the_end };
 
 /// The recording with stretches of `factor` samples of `interval` seconds each made into one.
 ///
-/// Accelerometers, gyros and covariates: mean over the stretch. A stretch that holds at least half
-/// of its samples is bridged by the straight line through them (exact to |f''| T^2 / 24: below 1 ug
-/// for a platform that turns at Earth rate and T <= 60 s); with less it is not measured. Gimbal
-/// angles and case heading: as read at the end of the stretch; not measured if that row is missing.
+/// Accelerometers: mean over the stretch. A stretch that holds at least half of its samples is
+/// bridged by the straight line through them (exact to |f''| T^2 / 24: below 1 ug for a platform
+/// that turns at Earth rate and T <= 60 s); with less it is not measured. Gimbal angles and case
+/// heading: as read at the end of the stretch; not measured if that row is missing. Covariates are
+/// what they are at its end, too: line_at_end().
 /// `reading` above 0: every so many rows are one reading of the angles of which the readout's noise
 /// is declared, and where stretches of five such readings and more follow each other without a cut,
 /// angles are those that the readings around the end show (AnglesAround; `readings`: how many they

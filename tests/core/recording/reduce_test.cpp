@@ -59,6 +59,22 @@ TEST(Reduce, BridgesShortHolesAlongTheTrendAndLeavesLongOnesEmpty) {
   EXPECT_TRUE(std::isfinite(s.find("acc_x")->values[2]));
 }
 
+TEST(Reduce, TakesCovariatesAsTheyAreAtTheEnd) {
+  Recording r = recording(40, [](double) { return 1.0; });
+  Channel temperature{"temperature", "degC"_unit, {}}, oil{"oil", unit::one, {}};
+  for (const double t : r.channels[0].values) {
+    temperature.values.push_back(20.0 + 0.01 * t);
+    oil.values.push_back(7.3);
+  }
+  r.channels.insert(r.channels.end(), {temperature, oil});
+  const Recording s = reduced(r, 0.5, 8);
+  const auto& t = s.find("time")->values;
+  for (std::size_t k = 0; k < s.rows(); ++k) {
+    EXPECT_NEAR(s.find("temperature")->values[k], 20.0 + 0.01 * t[k], 1e-12) << t[k];
+    EXPECT_EQ(s.find("oil")->values[k], 7.3);
+  }
+}
+
 TEST(Reduce, CutsWhereACommandChanges) {
   Recording r = recording(40, [](double) { return 1.0; });
   for (std::size_t k = 11; k < 40; ++k)
