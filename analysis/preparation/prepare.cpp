@@ -10,6 +10,7 @@
 
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/covariates/stepped_covariates.hpp"
 #include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gimbal_branch.hpp"
 #include "analysis/preparation/gimbal_zero.hpp"
@@ -216,7 +217,9 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
       wrong.push_back(std::move(text));
     positions.merge(positions_of(r));
   }
-  const Rounding rounding = rounding_of(p.recordings);  // as long as rows are those of the files
+  // As long as rows are those of the files.
+  const Rounding rounding = rounding_of(p.recordings);
+  const std::vector<SteppedCovariate> stepped = stepped_covariates(p.recordings);
   const Work work{p, plan_sample(study), most_rows, wrong};
   const double interval = common_interval(study, p.recordings);
   if (std::isfinite(interval))
@@ -224,6 +227,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   else if (rows_of(p.recordings) > p.recordings.size())
     take_uneven_rows(work);
   take_rounding(rounding, p.study.readout, p.remarks);
+  take_smooth(stepped, p.recordings, p.remarks);
   if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
   for (const Recording& r : p.recordings) {
     try {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/held_rows.hpp"
@@ -13,36 +13,38 @@
 #include "core/base/check.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
+#include "core/recording/rows/parabola.hpp"
+#include "core/recording/rows/smooth_reading.hpp"
 
 namespace drift::strapdown {
 namespace {
 
 constexpr auto fixed_drift = TermLibrary::index("D_F_x");
 
-/// What a thermometer that reads in steps says at an instant: the value there of the parabola
-/// through half a minute on both sides, by least squares. Heat takes minutes to move: of a swing of
-/// ten minutes it leaves 0.9999. Where rows are few, the row itself.
-double read_smoothly(const std::vector<double>& times, const std::vector<double>& values,
-                     double t) {
-  constexpr double half = 30.0;  // [s]
-  constexpr std::ptrdiff_t fewest = 12;
-  const auto first = std::ranges::lower_bound(times, t - half) - times.begin(),
-             end = std::ranges::upper_bound(times, t + half) - times.begin();
-  const auto row = [&](std::ptrdiff_t k) { return static_cast<std::size_t>(k); };
-  if (end - first < fewest) {
-    const auto at = std::ranges::lower_bound(times, t) - times.begin();
-    return values[std::min(row(at), values.size() - 1)];
+/// What a thermometer says at an instant: of one that reads in steps what these show, of any other
+/// the parabola through half a minute on both sides. Heat takes minutes to move: of a swing of ten
+/// minutes that leaves 0.9999. Where rows are few, the row itself.
+class Thermometer {
+ public:
+  Thermometer(const Recording& recording, const CovariateSpec& c)
+      : times_(recording.find("time")->values),
+        values_(recording.find(c.name)->values),
+        stepped_(SmoothReading::of(recording, c.name)) {}
+
+  double at(double t) const {
+    constexpr double half = 30.0;  // [s]
+    constexpr std::size_t fewest = 12;
+    if (stepped_)
+      if (const auto there = stepped_->at(t)) return *there;
+    if (const auto there = parabola_at(times_, values_, t, half, fewest)) return there->value;
+    const auto row = std::ranges::lower_bound(times_, t) - times_.begin();
+    return values_[std::min(static_cast<std::size_t>(row), values_.size() - 1)];
   }
-  Mat3 normal = Mat3::Zero();
-  Vec3 right = Vec3::Zero();
-  for (std::ptrdiff_t k = first; k < end; ++k) {
-    const double s = (times[row(k)] - t) / half;
-    const Vec3 powers(1.0, s, s * s);
-    normal += powers * powers.transpose();
-    right += powers * values[row(k)];
-  }
-  return normal.ldlt().solve(right)[0];
-}
+
+ private:
+  const std::vector<double>&times_, &values_;
+  std::optional<SmoothReading> stepped_;
+};
 
 /// A number, as its deviation from the mean of the recording, at both ends of each interval.
 void take_number(const CovariateSpec& c, const Recording& recording, Timeline& timeline) {
@@ -56,9 +58,10 @@ void take_number(const CovariateSpec& c, const Recording& recording, Timeline& t
   }
   timeline.carried |= c.set();
   timeline.mean[c] = mean;
+  const Thermometer thermometer(recording, c);
   for (Interval& i : timeline.intervals) {
-    i.around0[c] = read_smoothly(time->values, column->values, i.t0) - mean;
-    i.around1[c] = read_smoothly(time->values, column->values, i.t1) - mean;
+    i.around0[c] = thermometer.at(i.t0) - mean;
+    i.around1[c] = thermometer.at(i.t1) - mean;
   }
 }
 

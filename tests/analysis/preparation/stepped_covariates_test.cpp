@@ -1,0 +1,77 @@
+// A thermometer that reads in steps.
+#include "analysis/preparation/covariates/stepped_covariates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/preparation/recorded_test.hpp"
+#include "core/estimate/batch.hpp"
+#include "core/plan/environment.hpp"
+#include "tests/support/six_positions.hpp"
+
+namespace drift::preparation::stepped_covariates_test {
+namespace {
+
+constexpr double step = 0.0625;                 // [K]
+const double hysteresis = 200.0 * 1e-6 * 60.0;  // [g s/K]: 200 ug*min/degC
+
+mc::Study study() {
+  mc::Study s = test::six_study();
+  s.truth.active = test::only({"D_F", "K0_T_rate"});
+  s.filters.front().active = s.truth.active;
+  return s;
+}
+
+/// A swing of 3 K and three hours, which the accelerometer x follows by its rate.
+Recording recorded(const mc::Study& s) {
+  Timeline timeline = lay_out(s.plan, s.site);
+  Environment swing;
+  CovariateCourse& course = swing[covariate("temperature")];
+  course.mean.front() = 25.0;
+  course.amplitude = 3.0;
+  course.period = 10800.0;
+  set_environment(timeline, swing, 1, 0);
+  TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
+  for (const char* key : {"K0_T_rate_y", "K0_T_rate_z"}) draw.theta[test::param(key)] = 0.0;
+  draw.theta[test::param("K0_T_rate_x")] = hysteresis;
+  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured,
+                        s.readout);
+}
+
+Recording in_steps(Recording r) {
+  for (double& x : test::channel(r, "temperature")) x = step * std::round(x / step);
+  return r;
+}
+
+ParameterEstimate estimated(const mc::Study& s, const Recording& r) {
+  const Prepared p = prepare(s, {r});
+  const RecordedTest t = recorded_test(p.study, p.recordings);
+  const BatchResult fit = fit_batch(p.study.filters[0], {t.timeline, p.study.readout, t.measured},
+                                    make_layout(p.study.filters[0]).theta);
+  return *fit.estimate.find(test::param("K0_T_rate_x"));
+}
+
+/// From row to row the steps are half of what the temperature moves by: what follows its rate came
+/// out a quarter too small, five sigma.
+TEST(SteppedCovariates, HideNoHysteresis) {
+  const mc::Study s = study();
+  const Recording r = recorded(s);
+  const ParameterEstimate fine = estimated(s, r), stepped = estimated(s, in_steps(r));
+  EXPECT_NEAR(fine.value, hysteresis, 4.0 * fine.sigma);
+  EXPECT_NEAR(stepped.value, hysteresis, 4.0 * stepped.sigma);
+  EXPECT_NEAR(stepped.value, fine.value, fine.sigma);
+}
+
+TEST(SteppedCovariates, AreSaidAndOthersAreLeftAsTheyAre) {
+  const mc::Study s = study();
+  const Recording r = recorded(s);
+  const Prepared fine = prepare(s, {r});
+  EXPECT_EQ(fine.recordings.front().find("temperature")->values, r.find("temperature")->values);
+  EXPECT_FALSE(test::says(fine, "in steps"));
+  const Prepared stepped = prepare(s, {in_steps(r)});
+  EXPECT_TRUE(test::says(stepped, "the temperature is read in steps of 0.0625 degC"));
+}
+
+}  // namespace
+}  // namespace drift::preparation::stepped_covariates_test
