@@ -33,13 +33,17 @@ Diagnosis advised(Diagnosis d, const preparation::Prepared& test,
   return d;
 }
 
-/// A temperature that was read and mapped as nothing is told with the terms that would follow it.
-void name_unmapped_temperature(const std::vector<Recording>& recordings,
-                               std::vector<NotExamined>& left_out) {
-  for (const Recording& r : recordings)
-    for (NotExamined& n : left_out)
+/// What was read and is not used is told with the terms that would follow it: a covariate that is
+/// mostly unknown, a temperature that is mapped as nothing.
+void name_what_was_read(const std::vector<Recording>& recordings, const preparation::Prepared& test,
+                        std::vector<NotExamined>& left_out) {
+  for (NotExamined& n : left_out) {
+    for (const preparation::UnusedCovariate& unused : test.unused)
+      if ((n.missing & unused.set) != 0 && n.instead.empty()) n.instead = unused.why;
+    for (const Recording& r : recordings)
       if ((n.missing & covariate("temperature").set()) != 0 && n.instead.empty())
         n.instead = r.unmapped_temperature;
+  }
 }
 
 }  // namespace
@@ -61,7 +65,8 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
                               const RecordingsOptions& options) {
   if (options.advising == Advising::on_request && !study.filters.empty())
     require_askable(study.filters.front(), options.asked);
-  preparation::Prepared test = preparation::prepare(study, recordings);
+  preparation::Prepared test = preparation::prepare(
+      study, recordings, preparation::RecordingLimits::most_rows, preparation::Following::library);
   const StageReport& progress = options.diagnose.progress;
   // Where nothing is advised the rest takes a moment.
   const double of_diagnosis = options.advising == Advising::left_out ? 0.99 : 0.8;
@@ -77,7 +82,7 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
                                     test.recordings, second);
   if (d.field && d.field->another())
     test.study = with_field(std::move(test.study), d.field->field_l);
-  name_unmapped_temperature(recordings, d.not_examined);
+  name_what_was_read(recordings, test, d.not_examined);
   if (progress) progress("latitude and advice", of_diagnosis);
   if (!d.of_case)
     d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);

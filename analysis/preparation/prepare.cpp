@@ -199,7 +199,7 @@ void take_uneven_rows(const Work& work) {
 }  // namespace
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
-                 std::size_t most_rows) {
+                 std::size_t most_rows, Following following) {
   DRIFT_DEMAND(!recordings.empty());
   Prepared p{study, recordings, {}};
   std::vector<std::string> wrong;
@@ -220,6 +220,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   // As long as rows are those of the files.
   const Rounding rounding = rounding_of(p.recordings);
   const std::vector<SteppedCovariate> stepped = stepped_covariates(p.recordings);
+  std::vector<std::vector<ColumnGaps>> gaps;
+  for (Recording& r : p.recordings) gaps.push_back(bridge_covariates(r));
   const Work work{p, plan_sample(study), most_rows, wrong};
   const double interval = common_interval(study, p.recordings);
   if (std::isfinite(interval))
@@ -259,6 +261,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
         "look alike. Record more positions");
   for (int k = 1; k <= static_cast<int>(study.plan.positions.size()); ++k)
     if (!positions.contains(k)) p.absent_positions.push_back(k);
+  p.unused = leave_out_unknown(p.study, p.recordings, gaps, following, p.remarks);
   return p;
 }
 

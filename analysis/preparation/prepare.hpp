@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/preparation/covariates/unknown_rows.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
@@ -15,7 +16,8 @@ struct Prepared {
   std::vector<Recording> recordings;
   std::vector<std::string>
       remarks;  ///< what was left out or changed, and what the plan cannot give
-  std::vector<int> absent_positions = {};  ///< numbers of the plan's that no recording holds
+  std::vector<int> absent_positions = {};    ///< numbers of the plan's that no recording holds
+  std::vector<UnusedCovariate> unused = {};  ///< recorded, and taken as not recorded
   std::string off_zero = {};  ///< of the first gimbal, or of the heading, that is a constant off
 };
 
@@ -38,7 +40,12 @@ struct Prepared {
 /// Others have each their own interval (with_begins()), and fine ones are joined (joined_rows()) to
 /// samples of the plan, or coarser ones above `most_rows` rows. Declared is the noise of the mean
 /// over a sample of the plan: `samples` of the recordings says how many a row is worth.
+///
+/// Columns that terms may follow have straight lines where no reading is missing that is usual
+/// (bridge_covariates()); what hangs on them elsewhere is left out (leave_out_unknown()). Of a
+/// thermometer that reads in steps the temperature is what the steps show (SmoothReading).
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
-                 std::size_t most_rows = RecordingLimits::most_rows);
+                 std::size_t most_rows = RecordingLimits::most_rows,
+                 Following following = Following::filters);
 
 }  // namespace drift::preparation

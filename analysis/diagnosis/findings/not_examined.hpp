@@ -20,7 +20,7 @@ struct NotExamined {
   /// Named causes that it may stand behind: they act on the same instruments by the clock alone, as
   /// it would if what it follows had moved like that.
   std::vector<NamedEffect> twins;
-  std::string instead = {};  ///< what was read that may be what it follows, and how to say so
+  std::string instead = {};  ///< what was read of what it may follow, and why that is not used
   CovariateSet missing = 0;  ///< of what it follows
 };
 

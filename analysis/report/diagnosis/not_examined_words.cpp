@@ -63,7 +63,8 @@ std::string reason_in_words(const NotExamined& left_out) {
         return left_out.instead.empty()
                    ? fmt::format("it follows the {}, which {}", c->what, absence(*c))
                    : fmt::format("it follows the {}: {}", c->what, left_out.instead);
-      return "it follows a covariate that the recording does not have";
+      return left_out.instead.empty() ? "it follows a covariate that the recording does not have"
+                                      : fmt::format("it follows a column: {}", left_out.instead);
     case Why::no_swing:
       return "it follows the temperature beyond the first order, and that hardly moved";
     case Why::no_turns:
@@ -115,7 +116,8 @@ std::string followed_text(const std::vector<NotExamined>& all) {
   std::vector<std::string> followed;
   for (const NotExamined& n : lacking_covariate(all))
     if (const CovariateSpec* c = lacked_by(n);
-        c != nullptr && !c->is_vector() && std::ranges::find(followed, c->what) == followed.end())
+        c != nullptr && !c->is_vector() && n.instead.empty() &&
+        std::ranges::find(followed, c->what) == followed.end())
       followed.emplace_back(c->what);
   if (followed.empty()) return "";
   return fmt::format(

@@ -109,6 +109,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
   out["sources"] = id.sources;
   out["absent_positions"] = id.absent_positions;
   out["absent_channels"] = id.absent;  // of [readout]; the estimates are without them
+  out["remarks"] = id.remarks;
   Json& filters = out["filters"] = Json::array();
   for (const identification::FilterSummary& summary : id.summaries) {
     const FilterSpec& spec = study.filters[summary.filter];

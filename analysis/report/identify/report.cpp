@@ -42,6 +42,8 @@ Report identification_report(const mc::Study& study, const identification::Ident
     add_tables(document["filters"][f], sections);
     report.add(sections);
   }
+  // The terminal has had them before the answer.
+  if (!id.remarks.empty()) report.add({{"To be kept in mind", {Sentences{id.remarks}}, On::page}});
   report.add({{"", blocks, On::terminal}, study_section(study)});
   report.footer = "Values stand with their units; ± is 1 sigma.";
   report.document = {"identification.json", dumped(document)};

@@ -10,6 +10,7 @@
 #include "core/sim/simulate.hpp"
 #include "tests/support/own_terms.hpp"
 #include "tests/support/rows_at_any_distance.hpp"
+#include "tests/support/six_positions.hpp"
 #include "tests/support/term_scenes.hpp"
 
 namespace drift::preparation::joined_covariates_test {
@@ -82,15 +83,20 @@ TEST(JoinedCovariates, OfFineRowsAreWhatTheyAreAtTheEndOfJoinedOnes) {
   for (const double t : fine.find("time")->values)
     temperature.values.push_back(25.0 + 3.0 * std::sin(w * t));
   fine.channels.push_back(temperature);
-  for (const test::Rows rows : {test::Rows::each_second, test::Rows::seconds_lost}) {
-    const Recording r = test::with_rows(fine, rows);
+  const auto expect_at_the_end = [&](const Recording& r, std::size_t but_for) {
     const Prepared p = prepare(s, {r});
     const Recording& joined = p.recordings.front();
     ASSERT_LT(joined.rows(), r.rows() / 20);
-    for (std::size_t k = 0; k < joined.rows(); ++k)
+    for (std::size_t k = 0; k + but_for < joined.rows(); ++k)
       EXPECT_NEAR(joined.find("temperature")->values[k],
                   25.0 + 3.0 * std::sin(w * joined.find("time")->values[k]), 1.6e-3);
-  }
+  };
+  for (const test::Rows rows : {test::Rows::each_second, test::Rows::seconds_lost})
+    expect_at_the_end(test::with_rows(fine, rows), 0);
+  // Read in every tenth row; in the last nine it is held.
+  for (std::size_t row = 0; row < fine.rows(); ++row)
+    if (row % 10 != 0) test::channel(fine, "temperature")[row] = nan_value;
+  expect_at_the_end(fine, 1);
 }
 
 TEST(PlannedTest, HasTheFieldThatWasRecordedWhereNoneIsDeclared) {

@@ -129,9 +129,11 @@ TEST(IdentificationJson, HoldsEveryResultInItsUnitAndNoNan) {
   id.runs[0].ekf.parameters[1].value = HUGE_VAL;
   id.summaries[0].spread[0].ekf = std::nan("");
   id.runs[1].ekf.measured = 0;
+  id.remarks = {"temperature has no reading in 5 of 120 rows"};
   const std::string text = report::identification_report(study, id).document.second;
   const auto json = nlohmann::json::parse(text);  // NaN would not parse
   EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["remarks"], id.remarks);
   EXPECT_EQ(json["filters"].size(), 2u);
   const auto& filter = json["filters"][0];
   EXPECT_EQ(filter["name"], "corrected");
@@ -208,11 +210,13 @@ TEST(IdentificationHtml, IsSafeWithHostileNames) {
   study.resolved = {{"title", hostile, hostile}};
   identification::Identification id = test::identification(study);
   id.runs[0].ekf.cause = hostile;
+  id.remarks = {hostile};
   const std::string html = report::to_html(report::identification_report(study, id));
   EXPECT_EQ(test::xml_problem(html, {"meta"}).value_or(""), "");
   EXPECT_EQ(test::without_own_script(html).find("<script"), std::string::npos);
   EXPECT_EQ(test::without_own_script(html).find("://"), std::string::npos);
   EXPECT_NE(html.find("depends on start"), std::string::npos);
+  EXPECT_NE(html.find("To be kept in mind"), std::string::npos);
   EXPECT_LT(html.size(), 1500000u);
 }
 
