@@ -153,11 +153,11 @@ std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& d) 
 
 std::vector<NotExamined> not_examined(const search::Fitted& nominal,
                                       const std::vector<search::Cause>& causes,
-                                      CovariateSet carried) {
+                                      const Timeline& timeline) {
   std::vector<NotExamined> out;
   for (const std::size_t t : nominal.set.without_covariate) {
     const TermInfo& term = TermLibrary::terms[t];
-    const CovariateSet missing = term.needs.covariates & ~carried;
+    const CovariateSet missing = term.needs.covariates & ~timeline.carried;
     const Why why = term.wants_swing ? Why::no_swing
                     : missing != 0   ? Why::no_covariate
                                      : Why::no_turns;
@@ -165,7 +165,8 @@ std::vector<NotExamined> not_examined(const search::Fitted& nominal,
                    why,
                    why == Why::no_swing ? std::vector<NamedEffect>{} : twins_of(term, causes),
                    {},
-                   missing});
+                   missing,
+                   timeline.lacking(missing)});
   }
   for (const TermInfo& term : TermLibrary::terms) {
     if (term.key == closure_term) continue;  // judged by the jump to the other equation

@@ -30,9 +30,9 @@ std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
 std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& diagnosis);
 
 /// The terms that were left out of the comparison, and why; those that the nominal model holds and
-/// those that act through random numbers alone are not among them. carried: covariates of the test.
+/// those that act through random numbers alone are not among them. timeline: of the test.
 std::vector<NotExamined> not_examined(const search::Fitted& nominal,
                                       const std::vector<search::Cause>& causes,
-                                      CovariateSet carried);
+                                      const Timeline& timeline);
 
 }  // namespace drift::diagnosis

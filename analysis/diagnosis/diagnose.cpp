@@ -202,7 +202,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.candidates = candidate_table(nominal, found);
   d.noise = std::move(noise.findings);
   d.other_equation_gain = other_equation_gain(found, judged, test);
-  d.not_examined = not_examined(nominal, d.causes, test.timeline.carried);
+  d.not_examined = not_examined(nominal, d.causes, test.timeline);
   d.probabilities = probabilities(found, posterior, d.noise);
   d.nominal = nominal_filter;
   d.patched = best && alarm

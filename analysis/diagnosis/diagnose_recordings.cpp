@@ -1,5 +1,6 @@
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "analysis/diagnosis/advice/advise.hpp"
@@ -40,9 +41,11 @@ void name_what_was_read(const std::vector<Recording>& recordings, const preparat
   for (NotExamined& n : left_out) {
     for (const preparation::UnusedCovariate& unused : test.unused)
       if ((n.missing & unused.set) != 0 && n.instead.empty()) n.instead = unused.why;
-    for (const Recording& r : recordings)
-      if ((n.missing & covariate("temperature").set()) != 0 && n.instead.empty())
-        n.instead = r.unmapped_temperature;
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+      const bool has_it = !n.lacking.empty() && std::ranges::count(n.lacking, k) == 0;
+      if ((n.missing & covariate("temperature").set()) != 0 && n.instead.empty() && !has_it)
+        n.instead = recordings[k].unmapped_temperature;
+    }
   }
 }
 

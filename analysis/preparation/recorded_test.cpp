@@ -71,6 +71,7 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
   std::vector<Measurements> parts;
   std::vector<std::size_t> ends;
   FieldKnown field = FieldKnown::declared_or_recorded;
+  std::vector<JoinedRecording> several;
   for (const Recording& r : recordings) {
     timelines.push_back(lay_out(r, study.plan, study.site));
     set_declared_vectors(timelines.back(), study.environment);
@@ -78,8 +79,11 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
       field = FieldKnown::assumed;
     ends.push_back((ends.empty() ? 0 : ends.back()) + timelines.back().intervals.size());
     parts.push_back(measurements_of(r, study.readout));
+    several.push_back({r.source.empty() ? fmt::format("recording {}", parts.size()) : r.source,
+                       timelines.back().carried});
   }
   RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends), field};
+  if (several.size() > 1) test.timeline.recordings = std::move(several);
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
     throw InputError(
         ExitCode::recording,

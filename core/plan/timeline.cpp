@@ -59,6 +59,14 @@ double Timeline::mean_weight(int substeps, std::size_t k) {
   return (at_end ? 7.0 : k % 2 == 1 ? 32.0 : k % 4 == 2 ? 12.0 : 14.0) / (45.0 * substeps);
 }
 
+std::vector<std::size_t> Timeline::lacking(CovariateSet wanted) const {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < recordings.size(); ++k)
+    if ((wanted & ~recordings[k].carried) != 0) out.push_back(k);
+  if (out.size() == recordings.size()) out.clear();
+  return out;
+}
+
 Timeline lay_out(const TestPlan& plan, const Site& site) {
   require_memory_for(plan);
   Timeline timeline;

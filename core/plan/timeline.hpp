@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/params/covariates.hpp"
@@ -61,6 +62,12 @@ struct Node {
   Vec3 omega_ic_l;  ///< inertial rate of the case, local axes [rad/s]
 };
 
+/// One of several recordings in a timeline.
+struct JoinedRecording {
+  std::string name;  ///< file, or "recording 2"
+  CovariateSet carried = 0;
+};
+
 /// A test laid out in time: what a simulation and an estimator run along.
 struct Timeline {
   Site site;
@@ -71,13 +78,16 @@ struct Timeline {
   bool of_case = false;      ///< of a strapdown unit: its dwells are at rest (Interval::rest)
   bool reads_turns = false;  ///< accelerometers are read in turns, too (Interval::turn)
   CovariateSet carried = 0;  ///< covariates that the intervals have
-  Covariates mean;           ///< what numbers deviate from; zero for all others
+  std::vector<JoinedRecording> recordings;  ///< in order, of several; empty of one
+  Covariates mean;                          ///< what numbers deviate from; zero for all others
 
   bool carries(const CovariateSpec& c) const { return (carried & c.set()) != 0; }
   /// Whether it carries what a term, or a model, wants to see.
   bool carries(const Needs& needs) const {
     return (reads_turns || !needs.turning) && (needs.covariates & ~carried) == 0;
   }
+  /// Numbers from 0 of the recordings that lack some of `wanted`, where others have all of it.
+  std::vector<std::size_t> lacking(CovariateSet wanted) const;
   /// A vector that is the same all the time, local axes.
   void set_vector(const CovariateSpec& c, const Vec3& value_l) {
     for (Interval& i : intervals) i.around0.vector(c) = i.around1.vector(c) = value_l;

@@ -21,6 +21,14 @@ std::string expected(const CovariateSpec& c) {
                      columns_in_words(c));
 }
 
+/// " in b.csv" of several recordings of which others have what is wanted.
+std::string lacking_in_words(const Timeline& timeline, CovariateSet wanted) {
+  std::string out;
+  for (const std::size_t k : timeline.lacking(wanted))
+    out += (out.empty() ? " in " : ", ") + timeline.recordings[k].name;
+  return out;
+}
+
 }  // namespace
 
 std::string columns_in_words(const CovariateSpec& c) {
@@ -39,9 +47,10 @@ std::vector<std::string> missing_covariates(const DriftModel& model, const Timel
     const CovariateSet missing = term.needs.covariates & ~timeline.carried;
     for (const CovariateSpec& c : known_covariates)
       if ((missing & c.set()) != 0)
-        messages.push_back(fmt::format(
-            "term '{}' needs the {}, which is not known (expected {}). Add it, or remove the term",
-            term.key, c.what, expected(c)));
+        messages.push_back(
+            fmt::format("term '{}' needs the {}, which is not known{} (expected {}). Add it, or "
+                        "remove the term",
+                        term.key, c.what, lacking_in_words(timeline, c.set()), expected(c)));
     if (term.needs.turning && !timeline.reads_turns)
       messages.push_back(fmt::format(
           "term '{}' needs accelerometers that are read while the case turns (expected a strapdown "
@@ -51,9 +60,10 @@ std::vector<std::string> missing_covariates(const DriftModel& model, const Timel
     for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
       if ((missing & further_column(k)) != 0)
         messages.push_back(fmt::format(
-            "term '{}' needs '{}', which is not known (expected a column of that name with numbers "
-            "in the recording; a simulated or planned test has none). Add it, or remove the term",
-            term.key, own_terms().covariates[k]));
+            "term '{}' needs '{}', which is not known{} (expected a column of that name with "
+            "numbers in the recording; a simulated or planned test has none). Add it, or remove "
+            "the term",
+            term.key, own_terms().covariates[k], lacking_in_words(timeline, further_column(k))));
   }
   return messages;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct NotExamined {
   std::vector<NamedEffect> twins;
   std::string instead = {};  ///< what was read of what it may follow, and why that is not used
   CovariateSet missing = 0;  ///< of what it follows
+  /// Numbers from 0 of the recordings that lack it, where others have it; empty where none has.
+  std::vector<std::size_t> lacking = {};
 };
 
 }  // namespace drift::diagnosis

@@ -97,12 +97,14 @@ Json folds_json(const std::vector<Fold>& folds, const std::vector<RecordingSpan>
   return list;
 }
 
-Json not_examined_json(const std::vector<NotExamined>& left_out) {
+Json not_examined_json(const Diagnosis& d) {
   Json all = Json::array();
-  for (const NotExamined& n : left_out) {
+  for (const NotExamined& n : d.not_examined) {
     Json twins = Json::array();
     for (const NamedEffect& twin : n.twins) twins.push_back(twin.label);
-    all.push_back({{"term", n.term}, {"why", reason_in_words(n)}, {"twins", std::move(twins)}});
+    all.push_back({{"term", n.term},
+                   {"why", reason_in_words(n, d.where.recordings)},
+                   {"twins", std::move(twins)}});
   }
   return all;
 }
@@ -251,7 +253,7 @@ Json diagnosis_document(const Diagnosis& d) {
                 "term score p_value absorbed axis label dof p_value_alone amplitude sigma "
                 "smallest_detectable unit size_sigma log_bayes probability_alone adequate "
                 "observable why_not");
-  out["not_examined"] = not_examined_json(d.not_examined);
+  out["not_examined"] = not_examined_json(d);
   out["probabilities"] = probabilities_json(d.probabilities);
   out["proposal"] = d.proposal ? Json(d.proposal->text) : Json(nullptr);
   out["proposal_fit"] = form_json(d.proposal);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/words.hpp"
@@ -27,6 +28,21 @@ std::string_view absence(const CovariateSpec& c) {
   return c.is_vector() ? "is not known" : "was not recorded";
 }
 
+/// Of several recordings those that lack something, "b.csv and c.csv"; empty where all do.
+std::string lacking_in_words(const NotExamined& left_out, const RecordingSpans& recordings) {
+  std::vector<std::string> names;
+  for (const std::size_t k : left_out.lacking)
+    names.push_back(k < recordings.size() ? recordings[k].name
+                                          : fmt::format("recording {}", k + 1));
+  return names.empty() ? "" : listed(names, "and");
+}
+
+/// " in b.csv", or nothing.
+std::string in_which(const NotExamined& left_out, const RecordingSpans& recordings) {
+  const std::string lacking = lacking_in_words(left_out, recordings);
+  return lacking.empty() ? "" : " in " + lacking;
+}
+
 std::vector<NotExamined> lacking_covariate(const std::vector<NotExamined>& all) {
   std::vector<NotExamined> lacking;
   std::ranges::copy_if(all, std::back_inserter(lacking),
@@ -35,13 +51,16 @@ std::vector<NotExamined> lacking_covariate(const std::vector<NotExamined>& all) 
 }
 
 /// Why several terms were not examined: the same text for the same reason.
-std::string reason_of_several(const NotExamined& left_out) {
+std::string reason_of_several(const NotExamined& left_out, const RecordingSpans& recordings) {
+  const std::string lacking = lacking_in_words(left_out, recordings);
   switch (left_out.why) {
     case Why::no_covariate:
       if (!left_out.instead.empty()) return left_out.instead;
       if (const CovariateSpec* c = lacked_by(left_out))
-        return fmt::format("the {} {}", c->what, absence(*c));
-      return "the recording lacks the covariate that they follow";
+        return fmt::format("the {} {}{}", c->what, absence(*c), in_which(left_out, recordings));
+      return fmt::format("{} lack{} the covariate that they follow",
+                         lacking.empty() ? "the recording" : lacking,
+                         left_out.lacking.size() > 1 ? "" : "s");
     case Why::no_swing:
       return fmt::format("they ask for a temperature that moves by {:g} degC or more",
                          inference::TemperatureLimits::swing);
@@ -56,15 +75,19 @@ std::string reason_of_several(const NotExamined& left_out) {
 
 }  // namespace
 
-std::string reason_in_words(const NotExamined& left_out) {
+std::string reason_in_words(const NotExamined& left_out, const RecordingSpans& recordings) {
   switch (left_out.why) {
     case Why::no_covariate:
       if (const CovariateSpec* c = lacked_by(left_out))
         return left_out.instead.empty()
-                   ? fmt::format("it follows the {}, which {}", c->what, absence(*c))
+                   ? fmt::format("it follows the {}, which {}{}", c->what, absence(*c),
+                                 in_which(left_out, recordings))
                    : fmt::format("it follows the {}: {}", c->what, left_out.instead);
-      return left_out.instead.empty() ? "it follows a covariate that the recording does not have"
-                                      : fmt::format("it follows a column: {}", left_out.instead);
+      if (!left_out.instead.empty())
+        return fmt::format("it follows a column: {}", left_out.instead);
+      if (!left_out.lacking.empty())
+        return fmt::format("it follows a covariate that is not{}", in_which(left_out, recordings));
+      return "it follows a covariate that the recording does not have";
     case Why::no_swing:
       return "it follows the temperature beyond the first order, and that hardly moved";
     case Why::no_turns:
@@ -75,10 +98,11 @@ std::string reason_in_words(const NotExamined& left_out) {
   return "this plan does not show it, unless it is forty times as large as is usual";
 }
 
-std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& all) {
+std::vector<std::string> not_examined_sentences(const std::vector<NotExamined>& all,
+                                                const RecordingSpans& recordings) {
   std::vector<std::pair<std::string, std::vector<std::string>>> terms_by_reason;
   for (const NotExamined& n : all) {
-    const std::string reason = reason_of_several(n);
+    const std::string reason = reason_of_several(n, recordings);
     auto same = std::ranges::find(terms_by_reason, reason,
                                   &std::pair<std::string, std::vector<std::string>>::first);
     if (same == terms_by_reason.end()) same = terms_by_reason.insert(same, {reason, {}});
@@ -105,25 +129,28 @@ std::string unexamined_twins_text(const std::vector<NotExamined>& all) {
       listed(unseen, "and"), listed(twins, "or"));
 }
 
-std::string lacking_covariate_text(const std::vector<NotExamined>& all) {
+std::string lacking_covariate_text(const std::vector<NotExamined>& all,
+                                   const RecordingSpans& recordings) {
   std::string text;
-  for (const std::string& sentence : not_examined_sentences(lacking_covariate(all)))
+  for (const std::string& sentence : not_examined_sentences(lacking_covariate(all), recordings))
     text += " " + sentence + ".";
   return text;
 }
 
-std::string followed_text(const std::vector<NotExamined>& all) {
+std::string followed_text(const std::vector<NotExamined>& all, const RecordingSpans& recordings) {
   std::vector<std::string> followed;
+  std::set<std::string> in;
   for (const NotExamined& n : lacking_covariate(all))
     if (const CovariateSpec* c = lacked_by(n);
-        c != nullptr && !c->is_vector() && n.instead.empty() &&
-        std::ranges::find(followed, c->what) == followed.end())
-      followed.emplace_back(c->what);
+        c != nullptr && !c->is_vector() && n.instead.empty()) {
+      if (std::ranges::find(followed, c->what) == followed.end()) followed.emplace_back(c->what);
+      in.insert(in_which(n, recordings));
+    }
   if (followed.empty()) return "";
   return fmt::format(
-      " What wanders may follow the {}, which {} not recorded: record {} to tell it from noise.",
+      " What wanders may follow the {}, which {} not recorded{}: record {} to tell it from noise.",
       listed(followed, "and the"), followed.size() > 1 ? "were" : "was",
-      followed.size() > 1 ? "them" : "it");
+      in.size() == 1 ? *in.begin() : "", followed.size() > 1 ? "them" : "it");
 }
 
 }  // namespace drift::report

@@ -283,9 +283,9 @@ std::string sentence(const Diagnosis& d) {
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);
   if (d.verdict == Verdict::unexplained)
-    text += lacking_covariate_text(d.not_examined);
+    text += lacking_covariate_text(d.not_examined, d.where.recordings);
   else if (d.verdict == Verdict::consistent && wanders(d))
-    text += followed_text(d.not_examined);
+    text += followed_text(d.not_examined, d.where.recordings);
   // Last, for a short answer leaves off what comes last: pairs of one trace are the least of it.
   if (d.verdict == Verdict::named || d.verdict == Verdict::ambiguous) text += outside_twins_text(d);
   text += errors_text(d);

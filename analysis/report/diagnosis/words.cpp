@@ -81,7 +81,7 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 std::vector<std::string> remarks_of(const Diagnosis& d) {
   std::vector<std::string> all;
   for (const Remark& r : d.remarks) all.push_back(in_words(r, instrument_of(d)));
-  for (std::string& left_out : not_examined_sentences(d.not_examined))
+  for (std::string& left_out : not_examined_sentences(d.not_examined, d.where.recordings))
     all.push_back(std::move(left_out));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
     std::vector<std::string> begins;

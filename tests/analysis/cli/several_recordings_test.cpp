@@ -38,6 +38,28 @@ TEST(SeveralRecordings, AreAllWrittenAndEveryResidualSaysOfWhichItIs) {
   EXPECT_FALSE(there("recording_1.csv") || there("recording_2.csv"));
 }
 
+TEST(SeveralRecordings, ThatOneOfThemLacksWhatATermNeedsIsSaidOfThatOne) {
+  const ScratchFolder folder;
+  const std::string study = std::string(short_study) +
+                            "[[filter]]\nname = \"warm\"\ncoupling = \"eq5\"\n"
+                            "terms = [\"fixed_drift\", \"accelerometer_temperature\"]\n";
+  const std::string cold = folder.write("cold.toml", study),
+                    warm = folder.write("warm.toml",
+                                        study + "[environment]\ntemperature = \"20 degC\"\n"),
+                    with = folder.file("with.csv"), without = folder.file("without.csv");
+  ASSERT_EQ(driftscope("simulate " + warm + " -o " + with).code, 0);
+  ASSERT_EQ(driftscope("simulate " + cold + " -o " + without + " --run 1").code, 0);
+  const auto refused = [&](const std::string& files) {
+    const Answer a = driftscope("identify " + cold + " " + files + " --progress none");
+    EXPECT_EQ(a.code, 4) << a.err;
+    return a.err;
+  };
+  EXPECT_NE(refused(with + " " + without).find("the temperature, which is not known in " + without),
+            std::string::npos);
+  EXPECT_NE(refused(without).find("the temperature, which is not known (expected"),
+            std::string::npos);
+}
+
 TEST(TracedRun, SaysWhoseCourseItIs) {
   const ScratchFolder folder;
   const std::string file = folder.write("s.toml", short_study);

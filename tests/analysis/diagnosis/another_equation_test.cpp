@@ -75,7 +75,9 @@ TEST(AnotherEquation, WithAnEffectIsWeighedAgainstTwoEffects) {
   const mc::Study study = study_of(two_effects);
   for (const std::uint64_t seed : {6u, 11u}) {
     const Diagnosis d = diagnosed(study, seed, 0);
-    for (const search::Cause& c : d.causes) printf("%d %s.%s p %g set %d\n", (int)seed, c.term.c_str(), c.axis.c_str(), c.probability, c.set);
+    for (const search::Cause& c : d.causes)
+      printf("%d %s.%s p %g set %d\n", (int)seed, c.term.c_str(), c.axis.c_str(), c.probability,
+             c.set);
   }
 }
 
@@ -105,7 +107,7 @@ terms = ["fixed_drift", "g_drift", "gyro_misalignment"]
 
 TEST(AnotherEquation, HasALambdaWithinItsInterval) {
   const mc::Study study = study_of(no_misalignment);
-  for (const std::uint64_t run : {1,2,3,4,5,6,7,8}) {
+  for (const std::uint64_t run : {1, 2, 3, 4, 5, 6, 7, 8}) {
     const Diagnosis d = diagnosed(study, 3, run);
     printf("%d %s\n", (int)run, report::sentence(d).c_str());
   }
@@ -114,7 +116,7 @@ TEST(AnotherEquation, HasALambdaWithinItsInterval) {
 TEST(GrossMisfit, IsNoneWhereARandomWalkOfAUsualSizeExplainsIt) {
   mc::Study study = study_of(no_misalignment);
   study.truth.noise.drift_random_walk = 0.01 * unit::deg_per_h_per_sqrt_h.to_si;
-  for (const std::uint64_t run : {1,2,3,4,5,6,7,8}) {
+  for (const std::uint64_t run : {1, 2, 3, 4, 5, 6, 7, 8}) {
     const Diagnosis d = diagnosed(study, 5, run);
     printf("%d %s chi2 %g\n", (int)run, report::sentence(d).c_str(), d.fit.chi2_per_dof_before);
   }

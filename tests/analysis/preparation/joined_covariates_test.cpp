@@ -8,6 +8,7 @@
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/plan/environment.hpp"
 #include "core/sim/simulate.hpp"
+#include "core/sim/surroundings.hpp"
 #include "tests/support/own_terms.hpp"
 #include "tests/support/rows_at_any_distance.hpp"
 #include "tests/support/six_positions.hpp"
@@ -42,6 +43,35 @@ TEST(JoinedCovariates, AreThoseThatEveryRecordingHas) {
   const CovariateSet both = recorded_test(study(), {with, with}).timeline.carried;
   EXPECT_EQ(both, every_known_covariate | further_column(0));
   EXPECT_EQ(recorded_test(study(), {with, recorded()}).timeline.carried, every_known_covariate);
+}
+
+TEST(JoinedCovariates, ThatOneRecordingLacksAreToldOfThatOne) {
+  const test::OwnTermsHeld held(
+      test::own_term("twin", "drift.y", "A*oven_sensor", "A = { unit = 'deg/h/K', prior = 0.03 }"));
+  Recording with = recorded(), without = recorded();
+  with.source = "with.csv";
+  without.source = "without.csv";
+  Channel column = *with.find("temperature");
+  column.name = "oven_sensor";
+  with.channels.push_back(column);
+  std::erase_if(without.channels, [](const Channel& c) { return c.name == "temperature"; });
+  DriftModel model;
+  for (const char* term : {"accelerometer_temperature", "twin", "magnetic_drift"})
+    model.terms.set(TermLibrary::find_term(term).value());
+  const Timeline both = recorded_test(study(), {with, without}).timeline;
+  EXPECT_EQ(both.lacking(covariate("temperature").set()), std::vector<std::size_t>{1});
+  EXPECT_TRUE(both.lacking(covariate("field").set()).empty());
+  const auto one = missing_covariates(model, both);
+  ASSERT_EQ(one.size(), 2u);
+  for (const std::string& text : one)
+    EXPECT_NE(text.find(", which is not known in without.csv (expected a column"),
+              std::string::npos)
+        << text;
+  // Where none has it there is no use in naming them.
+  const auto all = missing_covariates(model, recorded_test(study(), {without, without}).timeline);
+  ASSERT_EQ(all.size(), 2u);
+  for (const std::string& text : all)
+    EXPECT_NE(text.find(", which is not known (expected a column"), std::string::npos) << text;
 }
 
 TEST(JoinedCovariates, DeviateFromOneMean) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "analysis/report/diagnosis/words.hpp"
@@ -67,6 +68,26 @@ TEST(SeveralRecordingsWords, SayOfNoiseWhereItIsNearlyConstantInEach) {
   EXPECT_TRUE(says(constant + " (accelerometer_markov: 18 ug)")) << report::sentence(d);
   d.noise.front().tau_s = 2000.0;
   EXPECT_FALSE(says(constant));
+}
+
+TEST(SeveralRecordingsWords, SayWhichOneLacksWhatATermFollows) {
+  diagnosis::NotExamined n{.term = "temperature_drift",
+                           .why = diagnosis::NotExamined::Why::no_covariate,
+                           .missing = covariate("temperature").set()};
+  const auto sentence = [&] { return report::not_examined_sentences({n}, two).front(); };
+  EXPECT_EQ(sentence(), "Not examined: temperature_drift: the temperature was not recorded");
+  EXPECT_EQ(report::reason_in_words(n, two), "it follows the temperature, which was not recorded");
+  n.lacking = {1};
+  EXPECT_EQ(sentence(),
+            "Not examined: temperature_drift: the temperature was not recorded in b.csv");
+  EXPECT_EQ(report::reason_in_words(n, two),
+            "it follows the temperature, which was not recorded in b.csv");
+  EXPECT_NE(report::followed_text({n}, two).find("which was not recorded in b.csv: record it"),
+            std::string::npos);
+  n.missing = further_column(0);  // of a [[term]]
+  EXPECT_EQ(sentence(),
+            "Not examined: temperature_drift: b.csv lacks the covariate that they follow");
+  EXPECT_EQ(report::reason_in_words(n, two), "it follows a covariate that is not in b.csv");
 }
 
 }  // namespace
