@@ -56,7 +56,8 @@ each_file() {  # NAME COMMAND...
   echo "whole or nothing: ${*##*/}"
 }
 
-# A command that fills a folder: after any fault the same command completes it.
+# A command that fills a folder: after any fault the same command completes it. The files of an answer
+# are all there, or there is no folder; those of a study come one after the other.
 each_folder() {  # CHECK COMMAND...
   local check=$1 folder code at reference
   shift
@@ -75,6 +76,8 @@ each_folder() {  # CHECK COMMAND...
         [ $code -eq 0 ] || [ $code -eq 6 ] || fail "$* with $kind $at, errno $errno: exit $code"
         [ $code -ne 0 ] || [ "$($check "$folder")" = "$reference" ] ||
           fail "$* with $kind $at, errno $errno: exit 0 and other results"
+        [ "$check" = digest ] || [ ! -e "$folder" ] || [ "$($check "$folder")" = "$reference" ] ||
+          fail "$* with $kind $at, errno $errno: a part of an answer"
         "$@" -o "$folder" >/dev/null 2>"$scratch/err" || fail "$* after $kind $at, errno $errno: not resumed"
         [ "$($check "$folder")" = "$reference" ] || fail "$* after $kind $at, errno $errno: other results"
         ls -A "$folder" | grep -q '^\.driftscope-' && fail "$* after $kind $at: temporary files are left"

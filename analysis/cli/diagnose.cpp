@@ -37,10 +37,8 @@ void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const std::string& folder, const std::vector<TextFile>& beside = {}) {
   Rest rest{cards_text(recordings, study.kind) + report::to_text(diagnosis), folder, {}};
   if (!folder.empty()) {
-    const ResultsFolder results{folder, "diagnose"};
-    const ResultsTurn turn(results);
-    rest.files = report::write_results(study, diagnosis, source, folder);
-    for (std::string& name : write_files(results, beside)) rest.files.push_back(std::move(name));
+    const ResultsTurn turn({folder, "diagnose"});
+    rest.files = report::write_results(study, diagnosis, source, folder, beside);
   }
   show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }

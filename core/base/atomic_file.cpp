@@ -57,7 +57,24 @@ AtomicFile::~AtomicFile() {
   remove_temporary(temporary_);
 }
 
-void AtomicFile::sync_temporary() {
+void AtomicFile::write(std::string_view text) {
+  const auto failed = [&](int reason) { throw_cannot_write(path_, std::strerror(reason)); };
+  const int fd = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (fd < 0) failed(errno);
+  while (!text.empty()) {
+    const ssize_t done = ::write(fd, text.data(), text.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) {
+      const int reason = errno;
+      ::close(fd);
+      failed(reason);
+    }
+    text.remove_prefix(static_cast<std::size_t>(done));
+  }
+  if (::close(fd) != 0) failed(errno);  // a full disk may show only here
+}
+
+void AtomicFile::sync() {
   const int fd = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0 || ::fsync(fd) != 0) {
     const int reason = errno;
@@ -68,7 +85,7 @@ void AtomicFile::sync_temporary() {
 }
 
 void AtomicFile::commit() {
-  sync_temporary();
+  sync();
   require_file_name(path_);  // rename() would replace it
   if (::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw_cannot_write(path_, std::strerror(errno));
@@ -76,7 +93,7 @@ void AtomicFile::commit() {
 }
 
 bool AtomicFile::commit_new() {
-  sync_temporary();
+  sync();
   // A hard link is the one way to claim a name that network file systems know as well.
   if (::link(temporary_.c_str(), path_.c_str()) != 0) {
     if (errno == EEXIST) return false;
@@ -90,6 +107,54 @@ bool AtomicFile::commit_new() {
   }
   sync_folder();
   return true;
+}
+
+std::string AtomicFile::put() {
+  if (std::string what = in_the_way(path_); !what.empty()) return what;
+  std::error_code none;
+  const bool replaces = fs::exists(fs::symlink_status(path_, none));
+  if (replaces) {
+    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
+      moved_ = Moved::for_old_file;
+      return {};
+    }
+    // Network file systems do not exchange; what else fails, a plain rename would meet too.
+    if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) return std::strerror(errno);
+  }
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) return std::strerror(errno);
+  moved_ = replaces ? Moved::over_old_file : Moved::to_free_name;
+  return {};
+}
+
+std::string AtomicFile::take_away() {
+  if (::rename(path_.c_str(), temporary_.c_str()) == 0)
+    moved_ = Moved::away;
+  else if (errno != ENOENT)
+    return std::strerror(errno);
+  return {};
+}
+
+bool AtomicFile::take_back() {
+  const char *name = path_.c_str(), *temporary = temporary_.c_str();
+  bool done = true;
+  switch (moved_) {
+    case Moved::nothing:
+      break;
+    case Moved::to_free_name:
+      done = ::rename(name, temporary) == 0;
+      break;
+    case Moved::for_old_file:
+      done = ::renameat2(AT_FDCWD, temporary, AT_FDCWD, name, RENAME_EXCHANGE) == 0;
+      break;
+    case Moved::over_old_file:
+      done = false;
+      break;
+    case Moved::away:
+      done = ::rename(temporary, name) == 0;
+      break;
+  }
+  moved_ = Moved::nothing;
+  return done;
 }
 
 void AtomicFile::sync_folder() {

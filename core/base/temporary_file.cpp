@@ -34,7 +34,7 @@ struct Alive {
   std::atomic<pid_t> maker{0};  ///< 0: none, or a name that is not whole
   std::array<char, PATH_MAX> path{};
 };
-std::array<Alive, 32> alive;
+std::array<Alive, 256> alive;
 std::mutex changing;  // which a handler does not wait for
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 

@@ -11,8 +11,8 @@ namespace drift {
 std::string make_temporary(const std::string& folder);
 void remove_temporary(const std::string& path);
 
-/// Removes those that this process has made and not removed yet, of at most 32 alive at a time: for
-/// the handler of a signal that ends it.
+/// Removes those that this process has made and not removed yet, of at most 256 alive at a time:
+/// for the handler of a signal that ends it.
 void remove_own_temporaries() noexcept;
 
 /// Removes the temporary files that processes which were killed left in a folder. Those of living

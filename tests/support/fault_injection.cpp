@@ -192,6 +192,11 @@ int rename(const char* from, const char* to) noexcept {
   static const auto next = real<int (*)(const char*, const char*)>("rename");
   return fails("rename") ? -1 : next(from, to);
 }
+int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+              unsigned flags) noexcept {
+  static const auto next = real<int (*)(int, const char*, int, const char*, unsigned)>("renameat2");
+  return fails("rename") ? -1 : next(from_folder, from, to_folder, to, flags);
+}
 int link(const char* from, const char* to) noexcept {
   static const auto next = real<int (*)(const char*, const char*)>("link");
   return fails("rename") ? -1 : next(from, to);

@@ -279,12 +279,16 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
 }
 
 std::vector<std::string> write_results(const mc::Study& study, const Diagnosis& d,
-                                       const DiagnosisSource& source, const std::string& folder) {
+                                       const DiagnosisSource& source, const std::string& folder,
+                                       const std::vector<TextFile>& beside) {
   const Report report = diagnosis_report(study, d, source);
+  NewResults results({folder, report.command});
+  add_report(results, report);
   for (const char* name : {"patched.toml", "advised.toml", "corrected.toml"})
     if (std::ranges::find(report.files, name, &TextFile::first) == report.files.end())
-      remove_result({folder, report.command}, name);
-  return write_report(report, folder);
+      results.remove(name);
+  for (const auto& [name, text] : beside) results.add(name, text);
+  return results.commit();
 }
 
 }  // namespace drift::report

@@ -39,11 +39,13 @@ std::string to_text(const diagnosis::Diagnosis& diagnosis);
 /// `seconds`.
 std::string to_json(const diagnosis::Diagnosis& diagnosis);
 
-/// Writes the report into a folder, made if need be. A patched.toml, advised.toml or corrected.toml
-/// of an earlier diagnosis that this one does not have is removed. Returns the names of the files.
-/// InputError (io) if one cannot be written.
+/// Writes the report, and what is to stand beside it, into a folder, made if need be, all or
+/// nothing. A patched.toml, advised.toml or corrected.toml of an earlier diagnosis that this one
+/// does not have is removed. Returns the names of the files. InputError (io) if one cannot be
+/// written.
 std::vector<std::string> write_results(const mc::Study& study,
                                        const diagnosis::Diagnosis& diagnosis,
-                                       const DiagnosisSource& source, const std::string& folder);
+                                       const DiagnosisSource& source, const std::string& folder,
+                                       const std::vector<TextFile>& beside = {});
 
 }  // namespace drift::report

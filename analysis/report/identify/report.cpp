@@ -11,7 +11,6 @@
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/study_section.hpp"
-#include "core/base/results/folder.hpp"
 #include "core/recording/recording_output.hpp"
 
 namespace drift::report {
@@ -61,31 +60,30 @@ std::vector<std::string> write_identification(const Report& report,
                                               const identification::Identification& id,
                                               const std::string& folder) {
   Report all = report;
-  if (std::ranges::find(all.files, corrected, &TextFile::first) == all.files.end())
-    remove_result({folder, report.command}, corrected);
   std::ranges::move(result_tables(id), std::back_inserter(all.files));
-  std::vector<std::string> names = write_report(all, folder);
+  NewResults results({folder, report.command});
+  add_report(results, all);
+  if (std::ranges::find(all.files, corrected, &TextFile::first) == all.files.end())
+    results.remove(corrected);
   const std::string arrays = "identification.nc";
-  write_result({folder, report.command}, arrays, [&](const std::string& temporary) {
+  results.add(arrays, [&](const std::string& temporary) {
     write_identification_netcdf(id, arrays, temporary);
   });
-  names.push_back(arrays);
   const bool several = id.recordings.size() > 1;
   const auto name_of = [](std::size_t k) { return fmt::format("recording_{}.csv", k + 1); };
   // Those of an earlier call that had others.
-  if (several) remove_result({folder, report.command}, "recording.csv");
+  if (several) results.remove("recording.csv");
   for (std::size_t k = several ? id.recordings.size() : 0;
        std::filesystem::exists(std::filesystem::path(folder) / name_of(k)); ++k)
-    remove_result({folder, report.command}, name_of(k));
+    results.remove(name_of(k));
   for (std::size_t k = 0; k < id.recordings.size(); ++k) {
     if (id.recordings[k].rows() == 0) continue;
     const std::string name = several ? name_of(k) : "recording.csv";
-    write_result({folder, report.command}, name, [&](const std::string& temporary) {
+    results.add(name, [&](const std::string& temporary) {
       write_recording_to(id.recordings[k], name, temporary);
     });
-    names.push_back(name);
   }
-  return names;
+  return results.commit();
 }
 
 }  // namespace drift::report

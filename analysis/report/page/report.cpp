@@ -48,7 +48,7 @@ std::vector<TextFile> csv_files(const std::vector<Section>& sections) {
   return files;
 }
 
-std::vector<std::string> write_report(const Report& report, const std::string& folder) {
+void add_report(NewResults& results, const Report& report) {
   // Everything is made before anything is written: what fails then is the disk alone.
   std::vector<TextFile> files{report.document};
   files.insert(files.end(), report.files.begin(), report.files.end());
@@ -59,7 +59,13 @@ std::vector<std::string> write_report(const Report& report, const std::string& f
       if (const auto* figure = std::get_if<Figure>(&block.content); figure && !figure->file.empty())
         files.emplace_back(figure->file, figure->svg);
   files.emplace_back("report.html", to_html(report));
-  return write_files({folder, report.command}, files);
+  for (const auto& [name, text] : files) results.add(name, text);
+}
+
+std::vector<std::string> write_report(const Report& report, const std::string& folder) {
+  NewResults results({folder, report.command});
+  add_report(results, report);
+  return results.commit();
 }
 
 }  // namespace drift::report

@@ -11,7 +11,7 @@
 
 #include "analysis/report/page/provenance.hpp"
 #include "analysis/report/page/table.hpp"
-#include "core/base/results/folder.hpp"
+#include "core/base/results/new_results.hpp"
 #include "core/base/weighed_texts.hpp"
 
 namespace drift::report {
@@ -163,8 +163,11 @@ std::string to_html(const Report& report);
 /// first column names the filter. Tables of one id have the same columns.
 std::vector<TextFile> csv_files(const std::vector<Section>& sections);
 
-/// Writes document, files, tables, figures and report.html into a folder, made if need be. Returns
-/// the names of the files. InputError (io) if one cannot be written.
+/// Adds document, files, tables, figures and report.html. InputError (io) if one cannot be written.
+void add_report(NewResults& results, const Report& report);
+
+/// Writes them into a folder, made if need be, all or none. Returns the names of the files.
+/// InputError (io) if one cannot be written.
 std::vector<std::string> write_report(const Report& report, const std::string& folder);
 
 }  // namespace drift::report

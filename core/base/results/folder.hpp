@@ -38,9 +38,9 @@ void begin_results(const ResultsFolder& folder);
 /// Name and content of a text file.
 using TextFile = std::pair<std::string, std::string>;
 
-/// Writes text files into the folder, made if need be, each complete or not at all. Returns their
-/// names. InputError, with nothing written: store if one of the names is somebody else's file; io
-/// if it is no file, or (with some written, perhaps) if one cannot be written.
+/// Writes text files into the folder, made if need be, all of them or none (new_results.hpp).
+/// Returns their names. InputError, with nothing written: store if one of the names is somebody
+/// else's file; io if it is no file, or if one cannot be written.
 std::vector<std::string> write_files(const ResultsFolder& folder,
                                      const std::vector<TextFile>& files);
 

@@ -104,5 +104,76 @@ TEST(FailedWrite, OfATextIsExitCode6) {
   }
 }
 
+/// What an answer says, whenever it was made; empty where there is none.
+std::string numbers_of(const std::string& folder) {
+  std::string all = text_of(folder + "/identification.json");
+  if (const auto date = all.find("\"date\":"); date != std::string::npos)
+    all.erase(date, all.find('\n', date) - date);
+  for (const char* name : {"/estimates.csv", "/residuals.csv", "/recording.csv"})
+    all += text_of(folder + name);
+  return all;
+}
+
+/// An answer of --seed 2 under a fault, into no folder or, every other time, over the answer in
+/// `kept`: all of it is there, or nothing, or the one of before.
+void expect_answer_or_before(const std::string& command, const std::string& out,
+                             const std::string& kept, const std::string& fresh,
+                             const std::string& kind, std::size_t stride) {
+  const std::string before = numbers_of(kept);
+  ASSERT_NE(before, fresh);
+  const auto over_another = [&](std::size_t at) { return at / stride % 2 == 1; };
+  const std::size_t faults = with_faults(
+      DRIFT_PROGRAM, command + " --seed 2", kind, stride,
+      [&](std::size_t at) {
+        fs::remove_all(out);
+        if (over_another(at)) fs::copy(kept, out, fs::copy_options::recursive);
+      },
+      [&](std::size_t at, const Answer& a) {
+        const std::string now = numbers_of(out);
+        const bool named = a.err.find("may not have reached the disk") != std::string::npos;
+        EXPECT_TRUE(a.code == 0 || a.code == io_error) << kind << " " << at << ": " << a.err;
+        EXPECT_TRUE(now == (a.code == 0 || named ? fresh
+                            : over_another(at)   ? before
+                                                 : ""))
+            << kind << " " << at << ", exit code " << a.code << ": " << a.err;
+        EXPECT_EQ(fs::exists(out), !now.empty()) << kind << " " << at;
+        if (fs::exists(out)) expect_no_temporaries(out);
+      });
+  EXPECT_GE(faults, 2u) << "no fault of " << kind << " reaches it";
+}
+
+/// A folder with some files of an answer would look like one.
+TEST(FailedWrite, OfAnAnswerLeavesNothingOrTheOneBefore) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), kept = scratch.file("kept"),
+                    command = "identify " + config("cheap.toml") + " --progress none -o " + out;
+  ASSERT_EQ(driftscope(command + " --seed 1").code, 0);
+  fs::copy(out, kept, fs::copy_options::recursive);
+  fs::remove_all(out);
+  ASSERT_EQ(driftscope(command + " --seed 2").code, 0);
+  const std::string fresh = numbers_of(out);
+  for (const auto& [kind, stride] : {std::pair<std::string, std::size_t>{"write", 13},
+                                     {"open", 3},
+                                     {"rename", 1},
+                                     {"close", 5},
+                                     {"fsync", 3}})
+    expect_answer_or_before(command, out, kept, fresh, kind, stride);
+}
+
+TEST(FailedWrite, OnADiskThatStaysFullLeavesNoAnswer) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out");
+  for (const char* at : {"1", "4", "20"}) {
+    const Answer a = run_program("/usr/bin/env",
+                                 std::string("LD_PRELOAD=" DRIFT_FAULTS " DRIFT_FAULT_KIND=write "
+                                             "DRIFT_FAULT_STICKY=1 DRIFT_FAULT_AT=") +
+                                     at + " '" DRIFT_PROGRAM "' identify " + config("cheap.toml") +
+                                     " --progress none -o " + out);
+    EXPECT_EQ(a.code, io_error) << a.err;
+    EXPECT_NE(a.err.find("Nothing was changed"), std::string::npos) << a.err;
+    EXPECT_FALSE(fs::exists(out)) << at;
+  }
+}
+
 }  // namespace
 }  // namespace drift::failed_write_test

@@ -77,8 +77,8 @@ TEST(Temporaries, OfThisProcessAreRemovedAtOnceAndNoOthers) {
 TEST(Temporaries, AreAsManyAsAreAsked) {
   const ScratchFolder scratch;
   std::vector<std::string> made;
-  for (int i = 0; i < 100; ++i) made.push_back(make_temporary(scratch.path()));
-  EXPECT_EQ(temporaries_in(scratch.path()), 100u);
+  for (int i = 0; i < 300; ++i) made.push_back(make_temporary(scratch.path()));
+  EXPECT_EQ(temporaries_in(scratch.path()), 300u);
   for (const std::string& path : made) remove_temporary(path);
   EXPECT_EQ(temporaries_in(scratch.path()), 0u);
 }
@@ -144,6 +144,38 @@ TEST(ResultsTurns, OneAfterTheOtherWritesAnAnswer) {
   EXPECT_EQ(text_of(scratch.file("out/report.html")), "second");
   EXPECT_EQ(text_of(scratch.file("out/identification.json")), "second");
   EXPECT_EQ(temporaries_in(folder.path), 0u);
+}
+
+TEST(ResultsTurns, ThatWriteNothingLeaveNothing) {
+  const ScratchFolder scratch;
+  {
+    const ResultsTurn turn({scratch.file("a/out"), "rank"});
+    EXPECT_TRUE(fs::exists(scratch.file("a/out/.driftscope")));
+  }
+  EXPECT_FALSE(fs::exists(scratch.file("a"))) << "what was made above it is gone, too";
+  fs::create_directory(scratch.file("mine"));
+  scratch.write("mine/notes", "mine");
+  { const ResultsTurn turn({scratch.file("mine"), "rank"}); }
+  EXPECT_EQ(text_of(scratch.file("mine/notes")), "mine");
+  EXPECT_FALSE(fs::exists(scratch.file("mine/.driftscope")));
+  write_files({scratch.file("mine"), "rank"}, {{"rank.json", "1"}});
+  { const ResultsTurn turn({scratch.file("mine"), "rank"}); }
+  EXPECT_TRUE(fs::exists(scratch.file("mine/.driftscope"))) << "with the list of what is there";
+}
+
+TEST(ResultsTurns, AFolderThatWasTakenAwayMeanwhileIsMadeAnew) {
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "identify"};
+  auto first = std::make_unique<ResultsTurn>(folder);
+  std::thread second([&] {
+    const ResultsTurn turn(folder);
+    write_files(folder, {{"report.html", "second"}});
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(120));  // more than one look of the other
+  first.reset();                                                // with nothing written
+  second.join();
+  EXPECT_EQ(text_of(scratch.file("out/report.html")), "second");
+  EXPECT_NO_THROW(require_results_folder(folder));
 }
 
 TEST(ResultsFolderOf, TheFilesKnowTheCommandBetterThanTheRegister) {
