@@ -64,7 +64,8 @@ std::string grid_text(const ParamSpec& spec) {
 void explain(const TermInfo& term) {
   show("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key,
        term.title, term.equation, term.source, acts_on(term), asks_for(term));
-  if (term.memory > 0) show("  memory    {} states, carried along the nominal path\n", term.memory);
+  if (term.memory > 0)
+    show("  memory    {} states, carried along the nominal path of each recording\n", term.memory);
   show("  {:<14} {:<14} {:<18} {}\n", "parameter", "unit", "default prior", "enters");
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];

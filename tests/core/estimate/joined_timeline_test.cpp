@@ -194,7 +194,7 @@ TEST(JoinedTimeline, LeavesErrorsAsLargeAsTheirSigmasWhereADriftWalks) {
   static_cast<ModelSpec&>(truth) = filter;
   const Theta start = make_layout(filter).theta;
   constexpr std::uint64_t units = 10;
-  std::array<Pulls, 2> pulls;
+  Pulls pulls;
   for (std::uint64_t unit = 0; unit < units; ++unit) {
     Theta theta = draw_parameters(truth, 7, unit, Purpose::parameters);
     std::vector<Measurements> parts;
@@ -206,18 +206,12 @@ TEST(JoinedTimeline, LeavesErrorsAsLargeAsTheirSigmasWhereADriftWalks) {
       parts.push_back(sim.measured);
       if (run % 2 == 1) theta = sim.theta_end;  // what an estimate at the end is of
     }
-    const Measurements measured = one_after_the_other(parts[0], parts[1]);
-    for (std::size_t e = 0; e < pulls.size(); ++e) {
-      const EstimateResult r =
-          sequential_estimators[e].run(filter, both, Readout{}, measured, start);
-      ASSERT_EQ(r.status, EstimateStatus::ok) << r.cause;
-      pulls[e].add(r, theta);
-    }
+    const EstimateResult r =
+        by_ekf(filter, both, Readout{}, one_after_the_other(parts[0], parts[1]), start);
+    ASSERT_EQ(r.status, EstimateStatus::ok) << r.cause;
+    pulls.add(r, theta);
   }
-  for (std::size_t e = 0; e < pulls.size(); ++e) {
-    SCOPED_TRACE(sequential_estimators[e].name);
-    expect_as_large_as_sigmas(pulls[e]);
-  }
+  expect_as_large_as_sigmas(pulls);
 }
 
 TEST(JoinedTimeline, ASimulatedDriftBeginsEachRecordingAtTheSameValue) {
