@@ -40,6 +40,7 @@ void require_simulable_truth(const Study& study) {
   std::vector<std::string> messages;
   add_missing(study, "truth", study.truth, study.environment, messages);
   throw_if_any(std::move(messages));
+  require_none(study, broken_own_terms(study, {&study.truth}, study.environment));
 }
 
 void require_simulable_models(const Study& study) {

@@ -6,10 +6,12 @@ namespace drift::mc {
 
 /// InputError (config), with the line of its terms, if [truth] has terms that follow what a
 /// simulated recording does not carry: a temperature or a magnetic field that [environment] does
-/// not declare, columns that a recording alone has. Nothing can be simulated from it.
+/// not declare, columns that a recording alone has; or if an own term of it is no finite number
+/// somewhere on the plan. Nothing can be simulated from it.
 void require_simulable_truth(const Study& study);
 
-/// The same of [truth] and every filter: nothing that is simulated can be estimated with them.
+/// What terms of [truth] and of every filter follow, likewise: nothing that is simulated can be
+/// estimated with them. Runs that an own term ends are failed ones.
 void require_simulable_models(const Study& study);
 
 /// The same of every filter, for a test that is only planned, in surroundings of which `known` is

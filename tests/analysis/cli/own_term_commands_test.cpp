@@ -95,7 +95,7 @@ TEST(OwnTermCommands, APoleIsToldWithItsTermAndTime) {
                           folder.write("s.toml", study(all, "A*sin(2*pi*t/P)/(t - " + pole + ")")),
                       said = "term 'rumble' is no finite number at t = " + pole +
                              " s, in position 1 (expected";
-    for (const char* command : {"check ", "rank "}) {
+    for (const std::string command : {"check ", "rank ", "simulate -o never.csv "}) {
       const Answer a = driftscope(command + config);
       EXPECT_EQ(a.code, config_error) << command << a.err;
       EXPECT_NE(a.err.find("s.toml:14: " + said), std::string::npos) << a.err;
