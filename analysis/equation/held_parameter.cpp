@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/inference/marginal.hpp"
+#include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/signatures.hpp"
 #include "core/estimate/layout.hpp"
 
@@ -27,7 +28,13 @@ HeldFit fit_held(const FilterSpec& filter, const MeasuredTest& test, const Batch
       out.fit = std::move(other);
   inference::LinearProblem problem = inference::linear_problem(held, test, out.fit, {});
   problem.weight = weight;
-  out.log2 = inference::marginal_of(problem, noise).log_likelihood2();
+  if (param != closure_param) {
+    out.log2 = inference::marginal_of(problem, noise).log_likelihood2();
+    return out;
+  }
+  const inference::Projector there(problem, noise);
+  out.log2 = there.marginal().log_likelihood2() +
+             2.0 * inference::log_gain_of_misalignments(make_layout(held), there);
   return out;
 }
 

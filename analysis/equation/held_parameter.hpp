@@ -11,6 +11,7 @@ struct HeldFit {
   double value = 0.0;
   /// Twice the log of p(y | value) with all other parameters and attitudes integrated over their
   /// priors (Laplace at the fit), without the constant and without the prior of the held parameter.
+  /// Of lambda with misalignments of unknown size (misalignments.hpp).
   double log2 = 0.0;
   BatchResult fit;
 };

@@ -126,7 +126,7 @@ struct NoisePrior {
     constexpr double at_zero = 0.3675525969478614;  // 2 / (pi sqrt(3))
     return std::log(at_zero) - 2.0 * std::log1p(z * z / 3.0);
   }
-  /// [z] Of 40 instruments one has more: its 97.5 % point. Test: GrossMisfit.IsNoneWhere...
+  /// [z] Of 40 instruments one has more: its 97.5 % point. Test: Thresholds.DrivingNoiseIs...
   static constexpr double usual = 3.182446305284263;
 };
 
@@ -193,7 +193,7 @@ struct WeighLimits {
   static constexpr double other_lambda = 3.0;  ///< [sigma] from the nominal equation's, to be named
   static constexpr double sign = 2.0;  ///< [sigma] expected, if another sign is to count against
   /// [2 log L] that an end of lambda gains on the joint fit: this lies outside the 95 % interval.
-  /// Test: ClosureProfile.*
+  /// Test: AnotherEquation.HasALambda...
   static constexpr double valley = 3.841458820694124;
   /// Odds against another cause. Test: CredibleSet.ASecondCauseIsOneInTwenty
   static constexpr double second_cause = 20.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/noise/gross_misfit.hpp"
 #include "analysis/inference/noise/robust_weights.hpp"
 #include "analysis/inference/thresholds.hpp"
@@ -16,8 +17,7 @@ namespace {
 double cost_of_misalignments(const FilterSpec& filter, const BatchResult& fit) {
   double cost = 0.0;
   for (const ParameterEstimate& p : fit.estimate.parameters) {
-    const auto group = TermLibrary::specs[p.param].group.view();
-    if (group != "eta" && group != "xi") continue;
+    if (!inference::is_misalignment(p.param)) continue;
     const auto& prior = filter.priors[p.param];
     if (prior.sigma() > 0.0) cost += std::pow((p.value - prior.mean()) / prior.sigma(), 2);
   }
@@ -68,6 +68,10 @@ inference::NoiseModel declared_noise(const FilterSpec& filter) {
 void Fitted::look_for_unknown_inputs() {
   lone = inference::strongest_lone_input(problem, noise.model);
   periodic = inference::strongest_periodic_input(problem, *projector);
+}
+
+double Fitted::log_gain_of_misalignments() const {
+  return inference::log_gain_of_misalignments(make_layout(filter), *projector);
 }
 
 const inference::PeriodicInput* Fitted::leading_period() const {

@@ -30,6 +30,8 @@ struct Fitted : Field {
   const inference::PeriodicInput* leading_period() const;
   /// With the price of its noise.
   double log_evidence() const { return 0.5 * log_likelihood2() + noise.log_price; }
+  /// What is to be added where equations are compared (misalignments.hpp).
+  double log_gain_of_misalignments() const;
   /// Frees the signatures of the candidates and what is made of them, all but `scores` and `set`:
   /// nine tenths of the memory, and a search keeps dozens of fits.
   void forget_signatures();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/settle_noise.hpp"
 
@@ -37,12 +38,15 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   OtherEquation out{nominal.filter, {}, -std::numeric_limits<double>::infinity()};
   out.filter.coupling = *facts(nominal.filter.coupling).other;
   const auto here = theta_of(nominal.filter, nominal.fit);
+  const double here_log2 = nominal.log_likelihood2() + 2.0 * nominal.log_gain_of_misalignments();
   for (const Theta& start : {here, make_layout(out.filter).theta}) {
     BatchResult fit = fit_batch_from(out.filter, test, start, nominal.fit.psi0_l);
     inference::LinearProblem problem = inference::linear_problem(out.filter, test, fit, {});
     problem.weight = nominal.problem.weight;
-    const double gain = inference::marginal_of(problem, nominal.noise.model).log_likelihood2() -
-                        nominal.log_likelihood2();
+    const inference::Projector there(problem, nominal.noise.model);
+    const double gain = there.marginal().log_likelihood2() +
+                        2.0 * inference::log_gain_of_misalignments(make_layout(out.filter), there) -
+                        here_log2;
     if (gain > out.gain) {
       out.gain = gain;
       out.fit = std::move(fit);
@@ -61,7 +65,8 @@ std::vector<BesideEquation> beside_other_equation(const Search& s, const Measure
                                   : examine(other->filter, test, other->fit);
   if (const auto settled = noise != nullptr ? std::nullopt : settle_noise(there))
     there = with_noise(std::move(there), test.timeline, settled->noise);
-  const double equation = there.log_evidence() - s.nominal.log_evidence();
+  const double equation = there.log_evidence() + there.log_gain_of_misalignments() -
+                          s.nominal.log_evidence() - s.nominal.log_gain_of_misalignments();
   const auto order = there.by_evidence();
   QuietTest left(there, ReachLimits::slack * s.thresholds.library_threshold,
                  ReachLimits::slack * s.thresholds.scan_threshold);

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "analysis/forms/screen.hpp"
+#include "analysis/inference/size_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/by_noise.hpp"
 #include "analysis/search/scores/log_sum.hpp"
-#include "analysis/search/scores/size_prior.hpp"
 #include "core/base/decompose.hpp"
 
 namespace drift::search {
@@ -21,7 +21,7 @@ using inference::TraceLimits;
 /// Explanations are fitted through the full dynamics, forms are not: their evidence may be too
 /// large by as much as linearisation is wrong by.
 double log_weight_of_form(const ScreenedForm& f) {
-  return f.form.log_prior + log_evidence_of_unknown_size(f.T, f.dof) -
+  return f.form.log_prior + inference::log_evidence_of_unknown_size(f.T, f.dof) -
          inference::WeighLimits::not_linear * 0.5 * f.T;
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/size_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/by_noise.hpp"
 #include "analysis/search/scores/library_prior.hpp"
 #include "analysis/search/scores/log_sum.hpp"
-#include "analysis/search/scores/size_prior.hpp"
 
 namespace drift::search {
 namespace {
@@ -81,7 +81,7 @@ double log_window(const Fitted& e) {
   for (const inference::PositionScan& scan : e.scans)
     for (const double T : scan.T) {
       if (T <= 0.0) continue;
-      sum = log_sum(sum, log_evidence_of_unknown_size(T));
+      sum = log_sum(sum, inference::log_evidence_of_unknown_size(T));
       windows += 1.0;
     }
   return windows > 0.0 ? sum - std::log(windows) : never;

@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "analysis/inference/size_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fit_causes.hpp"
-#include "analysis/search/scores/size_prior.hpp"
 #include "analysis/search/settle_noise.hpp"
 
 namespace drift::search {
@@ -46,7 +46,7 @@ double gain_of_sizes(const inference::CandidateSet& set, const FilterSpec& libra
     }
     causes += rows.size() > before;
   }
-  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause, wide);
+  return inference::log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows), cause, wide);
 }
 
 /// Whether each of simultaneous causes has an amplitude that is clearly not zero. A change of
@@ -180,6 +180,8 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
                 log_tries(b.nominal, r.choices) - causes.narrowed +
                 gain_of_sizes(b.nominal.set, causes.filter, r);
+  if (causes.expected.lambda_among_them)
+    r.log_bayes += r.after.log_gain_of_misalignments() - b.nominal.log_gain_of_misalignments();
   r.after.forget_signatures();
 }
 

@@ -8,9 +8,9 @@
 
 #include "analysis/inference/marginal.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/inference/size_prior.hpp"
 #include "analysis/search/scores/library_prior.hpp"
 #include "analysis/search/scores/log_sum.hpp"
-#include "analysis/search/scores/size_prior.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::search {
@@ -41,7 +41,7 @@ double gain_of_sizes_in(const Fitted& e, const Explanation& in, const NoiseEstim
     };
     cause.push_back(static_cast<int>(std::ranges::find_if(in, has) - in.begin()));
   }
-  return log_gain_of_sizes(fit.x.tail(n), fit.covariance.bottomRightCorner(n, n), cause);
+  return inference::log_gain_of_sizes(fit.x.tail(n), fit.covariance.bottomRightCorner(n, n), cause);
 }
 
 class NoiseOrEffects {
@@ -202,8 +202,8 @@ class NoiseOrEffects {
       Try best{{k, 0}, never};
       for (std::size_t v = 0; v < c.variants.size(); ++v) {
         const inference::Projected p = projector.candidates(c.variants[v].columns);
-        const double gain =
-            log_evidence_of_sizes(p.C, p.g) + prior_.log_of({{k, v}}) + log_share({k, v});
+        const double gain = inference::log_evidence_of_sizes(p.C, p.g) + prior_.log_of({{k, v}}) +
+                            log_share({k, v});
         if (gain > best.gain) best = {{k, v}, gain};
       }
       all.push_back(best);

@@ -7,6 +7,7 @@
 
 #include "analysis/diagnosis/advice/alternatives.hpp"
 #include "analysis/diagnosis/advice/extended_test.hpp"
+#include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/choose_additions.hpp"
 #include "analysis/search/scores/field.hpp"
@@ -26,8 +27,7 @@ enum class IfTold { say_so, say_nothing };
 /// zero, yet may be as large as their sigma. Their root mean square size is what is to be expected.
 BatchResult with_expected_misalignments(BatchResult fit) {
   for (ParameterEstimate& p : fit.estimate.parameters) {
-    const auto group = TermLibrary::specs[p.param].group.view();
-    if (group == "eta" || group == "xi")
+    if (inference::is_misalignment(p.param))
       p.value = std::copysign(std::hypot(p.value, p.sigma), p.value);
   }
   return fit;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/search/scores/size_prior.hpp"
+#include "analysis/inference/size_prior.hpp"
 #include "core/base/decompose.hpp"
 
 namespace drift::search {
@@ -26,7 +26,7 @@ std::vector<inference::Contrast> Field::all_contrasts() const {
 }
 
 double log_bayes(const inference::Projected& p, const std::vector<int>& columns) {
-  return log_evidence_of_sizes(p.C(columns, columns), p.g(columns));
+  return inference::log_evidence_of_sizes(p.C(columns, columns), p.g(columns));
 }
 
 namespace {
@@ -61,8 +61,8 @@ Score score(const Field& field, std::size_t candidate) {
     if (contrast.dof == 0) continue;  // an onset after the end of the test is no effect
     const double priors_alone = 0.5 * field.discount_of(candidate);
     const std::vector<int>& columns = c.variants[v].columns;
-    const VisibleEvidence seen =
-        evidence_of_visible_sizes(field.projected.C(columns, columns), field.projected.g(columns));
+    const inference::VisibleEvidence seen = inference::evidence_of_visible_sizes(
+        field.projected.C(columns, columns), field.projected.g(columns));
     evidence.push_back(log_bayes(field.projected, columns) - priors_alone);
     visible.push_back(seen.log + std::log(seen.share) - priors_alone);
     seen_share.push_back(std::log(seen.share));

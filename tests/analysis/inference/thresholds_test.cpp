@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "analysis/inference/max_t.hpp"
 #include "analysis/inference/noise/gross_misfit.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/noise/robust_weights.hpp"
 
 namespace drift::inference::thresholds_test {
@@ -53,7 +55,7 @@ std::pair<MeasuredRows, VecX> rows_of(Eigen::Index n, Residual&& residual) {
   return {std::move(rows), std::move(r)};
 }
 
-TEST(Thresholds, AMisfitOfThirtyTimesTheNoiseIsAskedForNone) {
+TEST(Thresholds, AMisfitOfThirtyTimesTheNoiseIsAskedForUsualNoise) {
   NoiseEstimate differences;
   differences.model.acc_factor = 2.0;
   const auto wrong = [&](double chi2_per_row) {
@@ -63,6 +65,23 @@ TEST(Thresholds, AMisfitOfThirtyTimesTheNoiseIsAskedForNone) {
   };
   EXPECT_FALSE(wrong(29.9));
   EXPECT_TRUE(wrong(30.1));
+}
+
+TEST(Thresholds, DrivingNoiseIsUsualWhereOneInstrumentInFortyHasMore) {
+  const auto usual = [](double deg_per_h_per_sqrt_h) {
+    NoiseEstimate noise;
+    noise.components = {&acc_white, &drift_walk};
+    noise.model.drift_random_walk = deg_per_h_per_sqrt_h * drift_walk.unit.to_si;
+    return driven_as_usual({}, noise, {});
+  };
+  // One sigma of the logarithm to either side of sqrt(1e-3 * 5e-3), Student's t of three degrees.
+  const double t = boost::math::quantile(boost::math::students_t(3.0), 1.0 - 1.0 / 40.0);
+  const double limit = std::sqrt(1e-3 * 5e-3) * std::pow(5.0, 0.5 * t);
+  EXPECT_TRUE(usual(0.999 * limit));
+  EXPECT_FALSE(usual(1.001 * limit));
+  NoiseEstimate white;
+  white.components = {&acc_white, &gimbal_white};
+  EXPECT_FALSE(driven_as_usual({}, white, {}));
 }
 
 /// Rows with the quantiles of a normal distribution times `spread`, and among them `far` of the

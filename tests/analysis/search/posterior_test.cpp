@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/inference/size_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/scores/size_prior.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/short_study.hpp"
@@ -15,7 +15,7 @@
 namespace drift::search::posterior_test {
 namespace {
 
-TEST(VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
+TEST(inference::VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
   // One amplitude of information 100: of the scales 1, 0.3, 0.1, ... of the prior's sigma the first
   // two are 10 and 3 sigma strong, the others 1 and less.
   const MatX C = MatX::Constant(1, 1, 100.0);
@@ -24,13 +24,14 @@ TEST(VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
     const double grown = 1.0 + s * s * 100.0;
     return std::exp(0.5 * s * s * 1600.0 / grown) / std::sqrt(grown);
   };
-  const VisibleEvidence seen = evidence_of_visible_sizes(C, g);
+  const inference::VisibleEvidence seen = inference::evidence_of_visible_sizes(C, g);
   EXPECT_NEAR(seen.share, 0.4, 1e-12);
   EXPECT_NEAR(seen.log, std::log((of_scale(1.0) + of_scale(0.3)) / 2.0), 1e-12);
-  const VisibleEvidence none = evidence_of_visible_sizes(MatX::Constant(1, 1, 8.9), g);
+  const inference::VisibleEvidence none =
+      inference::evidence_of_visible_sizes(MatX::Constant(1, 1, 8.9), g);
   EXPECT_EQ(none.share, 0.0);
   EXPECT_TRUE(std::isinf(none.log));
-  EXPECT_NEAR(evidence_of_visible_sizes(MatX::Constant(1, 1, 9.1), g).share, 0.2, 1e-12);
+  EXPECT_NEAR(inference::evidence_of_visible_sizes(MatX::Constant(1, 1, 9.1), g).share, 0.2, 1e-12);
 }
 
 TEST(EvidenceOfUnknownSize, IsTheIntegralOverSizesForOneAmplitudeAndForTwo) {
@@ -43,8 +44,10 @@ TEST(EvidenceOfUnknownSize, IsTheIntegralOverSizesForOneAmplitudeAndForTwo) {
       two += weight * std::cyl_bessel_i(0.0, a * z);
     }
     // The slow factors vary by 1 / z^2 over the integrand: 1 and 2 powers of a.
-    EXPECT_NEAR(log_evidence_of_unknown_size(z * z) - 0.5 * z * z, std::log(one), 1.5 / (z * z));
-    EXPECT_NEAR(log_evidence_of_unknown_size(z * z, 2) - 0.5 * z * z, std::log(two), 4.0 / (z * z));
+    EXPECT_NEAR(inference::log_evidence_of_unknown_size(z * z) - 0.5 * z * z, std::log(one),
+                1.5 / (z * z));
+    EXPECT_NEAR(inference::log_evidence_of_unknown_size(z * z, 2) - 0.5 * z * z, std::log(two),
+                4.0 / (z * z));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "analysis/search/scores/size_prior.hpp"
+#include "analysis/inference/size_prior.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace drift::search::size_prior_test {
+namespace drift::inference::size_prior_test {
 namespace {
 
 constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};
@@ -87,4 +87,4 @@ TEST(SizePrior, AFitUnderAWiderPriorHasTheSameEvidence) {
 }
 
 }  // namespace
-}  // namespace drift::search::size_prior_test
+}  // namespace drift::inference::size_prior_test

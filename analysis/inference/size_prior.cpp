@@ -1,4 +1,4 @@
-#include "analysis/search/scores/size_prior.hpp"
+#include "analysis/inference/size_prior.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 #include "core/base/decompose.hpp"
 #include "core/stats/normal.hpp"
 
-namespace drift::search {
+namespace drift::inference {
 namespace {
 
 constexpr std::array scales{1.0, 0.3, 0.1, 0.03, 0.01};  // of the prior's sigma
-constexpr double beyond = inference::FitLimits::beyond_prior;
+constexpr double beyond = FitLimits::beyond_prior;
 
 /// log of the mean of exp.
 double log_mean_exp(const std::vector<double>& logs) {
@@ -92,8 +92,7 @@ VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g) {
   const Rotated r(C, g);
   std::vector<double> logs;
   for (const double s : scales)
-    if (s * std::sqrt(r.most()) >= inference::VisibleLimits::size)
-      logs.push_back(r.log_evidence(s));
+    if (s * std::sqrt(r.most()) >= VisibleLimits::size) logs.push_back(r.log_evidence(s));
   out.share = static_cast<double>(logs.size()) / static_cast<double>(std::size(scales));
   if (!logs.empty()) out.log = log_mean_exp(logs);
   return out;
@@ -133,7 +132,7 @@ double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vecto
 }
 
 double log_evidence_of_unknown_size(double T, int amplitudes) {
-  constexpr double smallest = inference::VisibleLimits::size;
+  constexpr double smallest = VisibleLimits::size;
   const double z = std::sqrt(T), peak = std::max(z, smallest);
   const double one =
       0.5 * T + std::log(stats::normal_distribution(z - smallest) *
@@ -141,4 +140,4 @@ double log_evidence_of_unknown_size(double T, int amplitudes) {
   return amplitudes == 1 ? one : one + std::log(std::sqrt(2.0 / std::numbers::pi) / peak);
 }
 
-}  // namespace drift::search
+}  // namespace drift::inference

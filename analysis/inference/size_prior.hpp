@@ -5,7 +5,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift::search {
+namespace drift::inference {
 
 /// How large an effect may be is known to orders of magnitude only: physics.md section 4 gives
 /// ranges of one to two decades. So a candidate's amplitudes have, with equal chances, a prior of
@@ -47,4 +47,4 @@ double log_evidence_of_unknown_size(double T, int amplitudes = 1);
 double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
                          const std::vector<double>& wide = {});
 
-}  // namespace drift::search
+}  // namespace drift::inference

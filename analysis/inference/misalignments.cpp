@@ -1,0 +1,25 @@
+#include "analysis/inference/misalignments.hpp"
+
+#include <string_view>
+#include <vector>
+
+#include "analysis/inference/size_prior.hpp"
+
+namespace drift::inference {
+
+bool is_misalignment(std::size_t param) {
+  const std::string_view group = TermLibrary::specs[param].group.view();
+  return group == "eta" || group == "xi";
+}
+
+double log_gain_of_misalignments(const Layout& layout, const Projector& projector) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t k = 0; k < layout.size(); ++k)
+    if (is_misalignment(layout.params[k])) rows.push_back(static_cast<Eigen::Index>(k));
+  if (rows.empty()) return 0.0;
+  const Projector::Fit fit = projector.fit();
+  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows),
+                           std::vector<int>(rows.size(), 0));
+}
+
+}  // namespace drift::inference

@@ -1,0 +1,51 @@
+// Misalignments of unknown size, against closed forms.
+#include "analysis/inference/misalignments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/model_builders.hpp"
+#include "tests/support/white_problem.hpp"
+
+namespace drift::inference::misalignments_test {
+namespace {
+
+/// The gain where six misalignments are seen with this information each, in prior sigmas, and are
+/// found to be zero, beside drifts that are all known to a tenth of their prior.
+double gain_at_zero(double information) {
+  FilterSpec filter = test::base_filter(Coupling::eq5);
+  filter.active = test::only({"D_F", "eta", "xi"});
+  const Layout layout = make_layout(filter);
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  VecX seen(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    seen[k] =
+        is_misalignment(layout.params[static_cast<std::size_t>(k)]) ? std::sqrt(information) : 10.0;
+  const LinearProblem problem =
+      test::white_problem(seen.asDiagonal().toDenseMatrix(), MatX(n, 0), VecX::Zero(n));
+  return log_gain_of_misalignments(layout, Projector(problem, {}));
+}
+
+TEST(Misalignments, AreThoseOfGyros) {
+  EXPECT_TRUE(is_misalignment(test::param("eta_x")));
+  EXPECT_TRUE(is_misalignment(test::param("xi_z")));
+  EXPECT_FALSE(is_misalignment(test::param("D_F_x")));
+  EXPECT_FALSE(is_misalignment(test::param("dP_y")));
+}
+
+TEST(Misalignments, ThatATestDoesNotShowChangeNoEvidence) {
+  EXPECT_NEAR(gain_at_zero(0.0), 0.0, 1e-12);
+}
+
+TEST(Misalignments, ThatAreSmallAreNoCoincidence) {
+  // Each scale s has a density at zero that is 1 / s times as large, six times over: the mean over
+  // the five of them. What is seen is known to 1e-6 prior sigmas, the smallest scale to 1e-4 of its
+  // own: six times half of 1e-8 is left out.
+  double mean = 0.0;
+  for (const double s : {1.0, 0.3, 0.1, 0.03, 0.01}) mean += std::pow(s, -6.0) / 5.0;
+  EXPECT_NEAR(gain_at_zero(1e12), std::log(mean), 1e-7);
+}
+
+}  // namespace
+}  // namespace drift::inference::misalignments_test
