@@ -65,7 +65,8 @@ void explain(const TermInfo& term) {
   show("{}: {}\n  equation  {}\n  source    {}\n  acts on   {}\n  needs     {}\n", term.key,
        term.title, term.equation, term.source, acts_on(term), asks_for(term));
   if (term.memory > 0)
-    show("  memory    {} states, carried along the nominal path of each recording\n", term.memory);
+    show("  memory    {} states, carried along the nominal path of each recording{}\n", term.memory,
+         term.needs.gimbals ? "; what drift turns the gimbals by beside it is left out" : "");
   show("  {:<14} {:<14} {:<18} {}\n", "parameter", "unit", "default prior", "enters");
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
     const ParamSpec& spec = TermLibrary::specs[i];

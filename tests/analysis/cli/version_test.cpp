@@ -19,6 +19,10 @@ TEST(Program, TermsAndVersionAnswer) {
   for (const char* text : {"heat_i h_i", "3 states", "heat_tau", "profiled over 8, 12, 20, 30",
                            "physics.md 4, no. 21"})
     EXPECT_NE(heat.find(text), std::string::npos) << text;
+  constexpr const char* limit =
+      "of each recording; what drift turns the gimbals by beside it is left out\n";
+  EXPECT_NE(driftscope("terms stiction").out.find(limit), std::string::npos);
+  EXPECT_EQ(heat.find(limit), std::string::npos);
   EXPECT_NE(driftscope("terms M_y").out.find("field_n, field_w, field_u [gauss]"),
             std::string::npos);
   EXPECT_NE(driftscope("terms eta_x").out.find("toward the spin axis"), std::string::npos);
