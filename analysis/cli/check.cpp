@@ -4,6 +4,7 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/read_recordings.hpp"
 #include "analysis/cli/still_to_check.hpp"
+#include "analysis/report/study/truth_memory.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
@@ -44,6 +45,7 @@ ExitCode check(const StudyArguments& arguments) {
         "and "
         "K1, in ppm, is off by as many ppm as gravity is there\n",
         *gravity);
+  say("{}", report::truth_memory_text(study, 0));
   say("{}", still_to_check_text(study));
   return ExitCode::ok;
 }

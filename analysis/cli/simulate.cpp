@@ -2,6 +2,7 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/report/study/truth_memory.hpp"
 #include "core/base/output_file.hpp"
 #include "core/base/utf8.hpp"
 #include "core/recording/recording_output.hpp"
@@ -49,6 +50,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
     throw InputError(ExitCode::self_check,
                      fmt::format("run {} failed at t = {:.6g} s: {} ({})", run, sim.ode.t,
                                  name(sim.ode.status), sim.ode.cause));
+  say("{}", report::truth_memory_text(study, run));
   Recording recording = make_recording(timeline, sim.measured, study.readout);
   add_facts(recording, study, run);
   write_recording(recording, output);

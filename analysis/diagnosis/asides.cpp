@@ -5,6 +5,7 @@
 
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/common_scale.hpp"
+#include "analysis/identification/memory_doubt.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/stats/normal.hpp"
@@ -142,6 +143,11 @@ std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
   if (out.parameters.empty()) return std::nullopt;
   out.scales = identification::common_scale(estimate);
   return out;
+}
+
+std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit, const Timeline& timeline) {
+  remark::MemoryOff out{identification::memory_doubt(fit.filter, fit.fit, timeline)};
+  return out.terms.empty() ? std::nullopt : std::optional(std::move(out));
 }
 
 std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& d) {

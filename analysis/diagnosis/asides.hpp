@@ -25,6 +25,9 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& whiteness);
 std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
                                                 const search::Fitted& fit, double alpha);
 
+/// Terms of a fitted model, a cause among them, that remember another path than that of the fit.
+std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit, const Timeline& timeline);
+
 /// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not
 /// tell, its agreement says nothing of it (physics.md 1.7). Empty where a cause is the equation.
 std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& diagnosis);

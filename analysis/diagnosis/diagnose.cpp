@@ -218,8 +218,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
   // A cause moves parameters: they are looked at with it in the model.
-  append(d.remarks,
-         beyond_prior(nominal_filter, best && alarm ? best->after : nominal, options.search.alpha));
+  const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
+  append(d.remarks, beyond_prior(nominal_filter, in_the_model, options.search.alpha));
+  append(d.remarks, memory_off(in_the_model, test.timeline));
   append(d.remarks, equation_against_other(d));
   return d;
 }

@@ -59,6 +59,7 @@ Diagnosis of_another_study(Diagnosis d) {
     return std::holds_alternative<remark::StrongestLeft>(r) ||
            std::holds_alternative<remark::FreeInputExplains>(r) ||
            std::holds_alternative<remark::PeriodExplains>(r) ||
+           std::holds_alternative<remark::MemoryOff>(r) ||
            std::holds_alternative<remark::BeyondPrior>(r);
   });
   return d;

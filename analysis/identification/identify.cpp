@@ -50,6 +50,7 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   run.start = job.start;
   run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
   run.batch = fit_batch(filter, {timeline, study.readout, measured}, start);
+  run.memory_doubt = memory_doubt(filter, run.batch, timeline);
   for (EstimateResult* result : {&run.ekf, &run.batch.estimate})
     result->noise_at_most = study.readout.accelerometers_rounded || study.readout.gimbals_rounded;
   return run;
@@ -92,6 +93,7 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.ekf = ekf.result();
   run.history = ekf.history();
   run.batch = fit_batch(filter, {timeline, study.readout, sim.measured}, start);
+  run.memory_doubt = memory_doubt(filter, run.batch, timeline);
   return run;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/identification/heading_doubt.hpp"
 #include "analysis/identification/latitude_doubt.hpp"
+#include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
@@ -22,6 +23,7 @@ struct FilterRun {
   EstimateResult ekf;
   EkfHistory history;
   BatchResult batch;
+  std::vector<MemoryLeftOut> memory_doubt;  ///< along the path of the batch fit
 };
 
 /// How the starts of one filter agree on one parameter.

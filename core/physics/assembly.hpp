@@ -113,8 +113,9 @@ struct GimbalAssembly {
   Vec3T<S> case_tilt_l = Vec3T<S>::Zero();  ///< rotation of the case against the local axes [rad]
 };
 
-/// A short stretch of the nominal path: what drives the memory of terms. The platform's small
-/// deviation from the path is left out (at most 0.03 rad: 3 % of an effect that is itself small).
+/// A short stretch of a path: what drives the memory of terms. In simulator and filters it is the
+/// nominal path: what drift makes of it is left out, which is little of the specific force and may
+/// be all of the turns of gimbals that nominally stand still (sim/memory_left_out.hpp).
 struct PathStep {
   double dt = 0.0;           ///< [s]; 0 where the platform is caged and only the gimbals move
   Vec3 f0_p = Vec3::Zero();  ///< specific force at its ends, linear between [g]

@@ -10,17 +10,25 @@
 namespace drift {
 namespace {
 
-/// The nominal path at one instant.
+/// A path at one instant.
 struct PathPoint {
   Vec3 f_p;
   Vec3 gimbal = Vec3::Zero();  ///< where a term with memory sees the gimbals
 };
 
-PathPoint path_point(const Mat3& R_lr, double heading, bool gimbals) {
+PathPoint path_point(const Mat3& R_lp, double heading, bool gimbals) {
   PathPoint p;
-  p.f_p = R_lr.row(2);
-  if (gimbals) p.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * R_lr);
+  p.f_p = R_lp.row(2);
+  if (gimbals) p.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * R_lp);
   return p;
+}
+
+/// Attitude half a step times k after the first node of an interval, phi at its nodes.
+Mat3 attitude_at(const Node* nodes, const Vec3* phi, std::size_t k) {
+  const Node& node = nodes[k / 2];
+  const Mat3& R_lr = k % 2 ? node.R_lr_half : node.R_lr;
+  if (phi == nullptr) return R_lr;
+  return R_lr * rotation<double>(k % 2 ? Vec3(0.5 * (phi[k / 2] + phi[k / 2 + 1])) : phi[k / 2]);
 }
 
 double heading_at(const Interval& interval, double t) {
@@ -65,15 +73,15 @@ void change_memory(Change change, const TermMask& terms, const PathStep& along, 
 MemoryPath::MemoryPath(const Timeline& timeline, const DriftModel& model)
     : timeline_(&timeline), terms_(model.terms), active_(TermLibrary::remember(model.terms)) {}
 
-void MemoryPath::advance(std::size_t i, const double* theta) {
+void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* phi) {
   if (!active_) return;
   const Interval& interval = timeline_->intervals[i];
+  const Node* first = &timeline_->nodes[interval.first_node];
   const bool gimbals = TermLibrary::needs(terms_).gimbals;
   const std::size_t nodes = interval.node_count();
   const double half = 0.25 * interval.length() / interval.substeps;
   MemoryPoint m = interval.begins ? MemoryPoint{} : points_.back();
-  PathPoint here =
-      path_point(timeline_->nodes[interval.first_node].R_lr, interval.heading0, gimbals);
+  PathPoint here = path_point(attitude_at(first, phi, 0), interval.heading0, gimbals);
   if (interval.begins) {
     change_memory(Change::start, terms_, between(here, here, 0.0, interval.omega_cmd_p), theta, m);
   } else if (interval.cage) {
@@ -85,9 +93,8 @@ void MemoryPath::advance(std::size_t i, const double* theta) {
   }
   points_.assign(2 * nodes - 1, m);
   for (std::size_t k = 1; k < points_.size(); ++k) {
-    const Node& node = timeline_->nodes[interval.first_node + k / 2];
     const PathPoint next =
-        path_point(k % 2 ? node.R_lr_half : node.R_lr,
+        path_point(attitude_at(first, phi, k),
                    heading_at(interval, interval.t0 + half * static_cast<double>(k)), gimbals);
     change_memory(Change::advance, terms_, between(here, next, half, interval.omega_cmd_p), theta,
                   m);

@@ -28,7 +28,9 @@ class MemoryPath {
   bool active() const { return active_; }
   /// Moves on over interval i (in order; from the first on as often as wanted) with these
   /// parameters.
-  void advance(std::size_t i, const double* theta);
+  void advance(std::size_t i, const double* theta) { advance_along(i, theta, nullptr); }
+  /// The same along another path: phi at the nodes of the interval [rad]; null: the nominal one.
+  void advance_along(std::size_t i, const double* theta, const Vec3* phi);
   /// Of the interval: number 2 k is the memory at its node k, number 2 k + 1 half way to the next.
   /// Null where the model has none.
   const MemoryPoint* points() const { return active_ ? points_.data() : nullptr; }
@@ -39,7 +41,7 @@ class MemoryPath {
   const Timeline* timeline_;
   TermMask terms_;
   bool active_ = false;
-  Vec3 gimbal_ = Vec3::Zero();  ///< where the nominal path was last
+  Vec3 gimbal_ = Vec3::Zero();  ///< where the path was last
   double t_ = 0.0;
   std::vector<MemoryPoint> points_;
 };

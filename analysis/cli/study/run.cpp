@@ -10,6 +10,7 @@
 #include "analysis/cli/study/run_progress.hpp"
 #include "analysis/cli/study/whole_results.hpp"
 #include "analysis/cli/study_program.hpp"
+#include "analysis/report/study/truth_memory.hpp"
 #include "core/base/results/folder.hpp"
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
@@ -180,7 +181,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
     say("note: {}/study.toml was not that of the study: written anew, what was there is kept "
         "as {}\n",
         folder, aside);
-  if (ranks.leader()) say("results go to {}\n", folder);
+  if (ranks.leader()) say("{}results go to {}\n", report::truth_memory_text(study, 0), folder);
   const mc::StudyOutcome outcome =
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
   if (outcome.failed_first)

@@ -11,6 +11,7 @@
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
+#include "core/sim/memory_left_out.hpp"
 
 namespace drift::diagnosis {
 
@@ -101,6 +102,10 @@ struct OtherEquation {
   bool of_case = false;       ///< of gyros on a case
   bool open() const;          ///< the test does not tell the two apart
 };
+/// Terms of the model, a cause among them, whose memory follows another path than the platform.
+struct MemoryOff {
+  std::vector<MemoryLeftOut> terms;
+};
 /// The magnetic field is that of a dipole: none was recorded or declared.
 struct FieldAssumed {
   Vec3 field_l = Vec3::Zero();  ///< [T]
@@ -133,7 +138,7 @@ using Remark = std::variant<
     remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
     remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
     remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-    remark::OtherEquation, remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-    remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+    remark::OtherEquation, remark::MemoryOff, remark::FieldAssumed, remark::NoiseOrEffect,
+    remark::NoAdvice, remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

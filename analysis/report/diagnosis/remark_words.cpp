@@ -153,6 +153,8 @@ struct Words {
                        with, as_well_text(r.gain), r.of_case ? on_a_case : on_a_platform);
   }
 
+  std::string operator()(const MemoryOff& r) const { return "The " + memory_text(r.terms); }
+
   std::string operator()(const FieldAssumed& r) const { return field_assumed_text(r.field_l); }
 
   std::string operator()(const NoiseOrEffect& r) const {

@@ -258,14 +258,14 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     const auto add = [&](Weight weight, const std::string& said) {
       if (!said.empty()) brief.more.add(weight, said);
     };
-    add(Weight::doubtful, which_counts(view));
-    add(Weight::doubtful, considered_text(view));
-    add(Weight::doubtful, outside_text(view));
+    for (const auto text : {which_counts, considered_text, remembered_text, outside_text})
+      add(Weight::doubtful, text(view));
     add(Weight::wrong, beyond_text(view));
     if (const auto common = identification::common_scale(judged(view)); common && believed(view))
       add(Weight::wrong, "Gravity: " + common_scale_text(*common));
     add(any_wrong(view) ? Weight::wrong : Weight::note, count_text(view));
-    doubtful = doubtful || (believed(view) && !beyond_prior(view).empty());
+    doubtful = doubtful || !remembered_text(view).empty() ||
+               (believed(view) && !beyond_prior(view).empty());
   }
   const bool wrong_study = other_headings(id) != nullptr || other_latitude(id).has_value();
   brief.tone = j.good.empty() || wrong_study ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;

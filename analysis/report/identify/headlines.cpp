@@ -121,6 +121,7 @@ std::vector<std::string> sentences_of(const FilterView& v) {
   said.push_back(nis_sentence(v, runs));
   said.push_back(dispute_sentence(v, *runs.front()));
   said.push_back(considered_text(v));
+  said.push_back(remembered_text(v));
   if (!v.summary.degeneracies.empty())
     said.push_back(
         fmt::format("{} combinations of its {} parameters cannot be seen in this test at all.",
@@ -154,6 +155,11 @@ std::string considered_text(const FilterView& v) {
       "is "
       "in the sigmas. Declare field_n, field_w, field_u in [environment].",
       v.spec().name, preparation::beside_dipole / magnetic.unit.to_si, magnetic.unit.symbol.view());
+}
+
+std::string remembered_text(const FilterView& v) {
+  const auto& doubt = v.id.runs_of(v.summary.filter).front()->memory_doubt;
+  return doubt.empty() ? "" : fmt::format("Filter {}: the {}.", v.spec().name, memory_text(doubt));
 }
 
 std::vector<std::string> headlines(const mc::Study& study,

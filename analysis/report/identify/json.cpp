@@ -126,6 +126,9 @@ Json identification_document(const mc::Study& study, const identification::Ident
         summary.heading_doubt ? heading_json(*summary.heading_doubt) : Json(nullptr);
     f["latitude_doubt"] = latitude_json(summary.latitude_doubt);
     f["clock_doubt"] = clock_json(summary.latitude_doubt);
+    Json& remembered = f["memory_off"] = Json::object();  // rms part of what a term remembers
+    for (const MemoryLeftOut& one : id.runs_of(summary.filter).front()->memory_doubt)
+      remembered[one.term] = one.part;
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;
     f["degeneracies"] =

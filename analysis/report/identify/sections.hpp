@@ -50,6 +50,10 @@ std::string which_counts(const FilterView& view);
 /// That the magnetic field was assumed and its error is in the sigmas; empty elsewhere.
 std::string considered_text(const FilterView& view);
 
+/// That terms of the filter have a memory which the platform's own path would leave otherwise;
+/// empty elsewhere.
+std::string remembered_text(const FilterView& view);
+
 /// Library indices of the parameters worth a picture: the published ones; else those the study
 /// gives a true value of its own (at most 6); else the 3 that depend most on the start.
 std::vector<std::size_t> highlighted_parameters(const mc::Study& study,

@@ -64,6 +64,17 @@ std::string field_assumed_text(const Vec3& field_l) {
       gauss.x(), gauss.z());
 }
 
+std::string memory_text(const std::vector<MemoryLeftOut>& doubt) {
+  std::vector<std::string> terms;
+  for (const MemoryLeftOut& one : doubt)
+    terms.push_back(fmt::format("{} ({:.0f} %)", one.term, 1e2 * one.part));
+  return fmt::format(
+      "memory of {} is that of the nominal path: on the platform's own, where drift turns it, it "
+      "differs by so much (rms), and amplitudes of it are wrong by up to as much. It is less where "
+      "commands take the drift away",
+      listed(terms, "and"));
+}
+
 std::string_view plural(std::size_t count) {
   return count == 1 ? "" : "s";
 }

@@ -11,6 +11,7 @@
 #include "core/base/words.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/physics/coupling.hpp"
+#include "core/sim/memory_left_out.hpp"
 
 namespace drift::report {
 
@@ -35,6 +36,9 @@ std::string common_scale_text(const identification::CommonScale& common);
 
 /// That the magnetic field is taken to be that of a dipole, a sentence. field_l: local axes [T].
 std::string field_assumed_text(const Vec3& field_l);
+/// "memory of stiction (154 %) is that of the nominal path: ...", without an article before it and
+/// a full stop behind: of memory_doubt(), which is not empty.
+std::string memory_text(const std::vector<MemoryLeftOut>& doubt);
 
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);

@@ -1,0 +1,35 @@
+#include "analysis/identification/memory_doubt.hpp"
+
+#include "analysis/inference/thresholds.hpp"
+#include "core/plan/environment.hpp"
+#include "core/sim/simulate.hpp"
+
+namespace drift::identification {
+namespace {
+
+std::vector<MemoryLeftOut> doubtful(std::vector<MemoryLeftOut> all) {
+  std::erase_if(
+      all, [](const MemoryLeftOut& one) { return one.part <= inference::RemarkLimits::memory; });
+  return all;
+}
+
+}  // namespace
+
+std::vector<MemoryLeftOut> memory_doubt(const FilterSpec& filter, const BatchResult& fit,
+                                        const Timeline& timeline) {
+  return doubtful(memory_left_out(timeline, filter.model(), theta_of(filter, fit), fit.psi0_l));
+}
+
+std::vector<MemoryLeftOut> memory_doubt(const mc::Study& study, std::uint64_t run) {
+  DriftModel model = study.truth.model();
+  if (!study.has_truth || study.kind != RecordingKind::platform) return {};
+  if (!TermLibrary::remember(model.terms)) return {};
+  model.coupling = facts(model.coupling).settles_to;
+  Timeline timeline = lay_out(study.plan, study.site);
+  set_loop(timeline, study.truth);
+  set_environment(timeline, study.environment, study.monte_carlo.seed, run);
+  const TruthDraw draw = draw_truth(study.truth, timeline.chains, study.monte_carlo.seed, run);
+  return doubtful(memory_left_out(timeline, model, draw.theta, draw.psi0_l));
+}
+
+}  // namespace drift::identification
