@@ -12,11 +12,12 @@ namespace drift {
 /// through what was read around an instant. Row by row such a readout stands still or jumps, which
 /// as a rate is all noise.
 ///
-/// The parabolas are as wide as leaves the least error expected (Mallows' C_p): the mean square of
-/// what they leave of the readings, and twice the variance of one, step^2 / 12 or more where
-/// neighbours scatter by more, for each reading's own part in its parabola. Readings that are one
-/// value share one error, so that part is as many times as large, one at most. As read, it is twice
-/// the variance: where no parabola is better, as of what jumps, there is none.
+/// The parabolas are nearly as wide as leaves the least error expected (Mallows' C_p): the mean
+/// square of what they leave of the readings, and twice the variance of one, step^2 / 12 or more
+/// where neighbours scatter by more, for each reading's own part in its parabola. Readings that are
+/// one value share one error, so that part is as many times as large, one at most. As read, it is
+/// twice the variance: where no parabola is better, as of what jumps, there is none. Somewhat
+/// narrower than that, the bias of all of them stays small against the noise of their mean.
 class SmoothReading {
  public:
   /// Of a column of a recording with times; empty where it is absent or not read in steps, where
