@@ -75,7 +75,7 @@ struct Fit {
       : of(strapdown::case_study(nominal, recording)),
         filter(strapdown::case_filter(nominal.filters.front(), of)),
         fit(fit_batch(filter, of.measured(), strapdown::start_of(filter, of))) {}
-  double chi2_per_dof() const { return fit.estimate.statistic / fit.estimate.measured; }
+  double chi2_per_dof() const { return fit.estimate.statistic_per_dof(); }
 };
 
 /// A part of a recording as it is.

@@ -101,11 +101,12 @@ std::string shortened_lines(std::string_view text, std::size_t longest) {
     if (line.size() <= longest) {
       out += line;
     } else {
-      std::size_t head = longest * 2 / 3, tail = line.size() - longest / 3;
-      while (head > 0 && (byte_of(line, head) >> 6) == 2) --head;  // between two characters
-      while (tail < line.size() && (byte_of(line, tail) >> 6) == 2) ++tail;
-      out += fmt::format("{} ... ({} more bytes) ... {}", line.substr(0, head), tail - head,
-                         line.substr(tail));
+      std::size_t kept_before = longest * 2 / 3, kept_behind = line.size() - longest / 3;
+      while (kept_before > 0 && (byte_of(line, kept_before) >> 6) == 2)
+        --kept_before;  // between two characters
+      while (kept_behind < line.size() && (byte_of(line, kept_behind) >> 6) == 2) ++kept_behind;
+      out += fmt::format("{} ... ({} more bytes) ... {}", line.substr(0, kept_before),
+                         kept_behind - kept_before, line.substr(kept_behind));
     }
     if (end < text.size()) out += '\n';
     text.remove_prefix(std::min(end + 1, text.size()));

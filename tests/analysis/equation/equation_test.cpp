@@ -183,9 +183,9 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
   EXPECT_TRUE(diagnosis::advise(s, {recording}, told).empty());
 }
 
-TEST(Equation, LambdaComesFromItsProfileWhereTheNominalEquationLetsTheMisalignmentsVanish) {
+TEST(Equation, IsNotToldByMisalignmentsThatVanishUnderTheNominalOne) {
   // Free drift under eq. (6) shows no misalignment; a nominal eq. (5) finds them at zero, where any
-  // lambda fits as well. That all six happen to be zero is what is improbable.
+  // lambda fits as well. A well aligned platform under eq. (5) gives the same recording.
   const mc::Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"},
                                                              {"plan.sample", "120 s"},
                                                              {"truth.coupling", "eq6"},
@@ -194,12 +194,15 @@ TEST(Equation, LambdaComesFromItsProfileWhereTheNominalEquationLetsTheMisalignme
   options.folds = diagnosis::FoldMethod::linear;
   options.named_by = diagnosis::NamedBy::fit_alone;
   const diagnosis::Diagnosis d = diagnosis::diagnose(s, {simulated(s).recording}, options);
-  ASSERT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
-  EXPECT_EQ(d.causes[0].term, "frame_closure");
-  const search::CauseParameter& lambda = d.causes[0].parameters.front();
-  EXPECT_NEAR(lambda.value, 1.0, 0.2);
-  EXPECT_LT(lambda.sigma, 0.15);
-  EXPECT_NEAR(d.fit.chi2_per_dof_before, d.fit.chi2_per_dof_after, 0.02);
+  EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent) << report::sentence(d);
+  EXPECT_NE(report::sentence(d).find("cannot tell the nominal eq. (5) from eq. (6)"),
+            std::string::npos)
+      << report::sentence(d);
+  EXPECT_LT(std::abs(d.other_equation_gain), inference::RemarkLimits::equation);
+  // Which positions would tell.
+  const auto advice = diagnosis::advise(s, {simulated(s).recording}, d);
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_GT(advice[0].expected_sigma, 5.0);
 }
 
 }  // namespace

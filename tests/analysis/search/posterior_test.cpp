@@ -15,7 +15,7 @@
 namespace drift::search::posterior_test {
 namespace {
 
-TEST(inference::VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
+TEST(VisibleEvidence, IsTheEvidenceOfTheScalesThatATestCanSee) {
   // One amplitude of information 100: of the scales 1, 0.3, 0.1, ... of the prior's sigma the first
   // two are 10 and 3 sigma strong, the others 1 and less.
   const MatX C = MatX::Constant(1, 1, 100.0);
