@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/base/check.hpp"
+#include "core/base/temporary_file.hpp"
 
 namespace drift::test {
 
@@ -26,6 +27,14 @@ struct Answer {
   int code = -1;
   std::string out, err;
 };
+
+/// Temporary files of this program in a folder.
+inline std::size_t temporaries_in(const std::string& folder) {
+  std::size_t n = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    n += is_temporary(entry.path().filename().string());
+  return n;
+}
 
 /// A folder that is gone after the test.
 class ScratchFolder {

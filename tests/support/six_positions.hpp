@@ -3,9 +3,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/preparation/prepare.hpp"
+#include "core/plan/environment.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
@@ -34,6 +36,23 @@ inline Recording simulated(const mc::Study& s) {
   const TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
   Simulator simulator(s.truth, s.readout);
   return make_recording(timeline, simulator.run(timeline, draw, 1, 0).measured, s.readout);
+}
+
+/// A recording during which the temperature swings by 3 K in three hours, of a truth that has these
+/// values [SI].
+inline Recording simulated_in_a_swing(
+    const mc::Study& s, std::initializer_list<std::pair<std::string_view, double>> values) {
+  Timeline timeline = lay_out(s.plan, s.site);
+  Environment swing;
+  CovariateCourse& course = swing[covariate("temperature")];
+  course.mean.front() = 25.0;
+  course.amplitude = 3.0;
+  course.period = 10800.0;
+  set_environment(timeline, swing, 1, 0);
+  TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
+  for (const auto& [key, value] : values) draw.theta[param(key)] = value;
+  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured,
+                        s.readout);
 }
 
 /// Six positions of 20 minutes without drift of second order in g, but for D_SS_x, which the

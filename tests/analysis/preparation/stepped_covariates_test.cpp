@@ -23,20 +23,10 @@ mc::Study study() {
   return s;
 }
 
-/// A swing of 3 K and three hours, which the accelerometer x follows by its rate.
+/// The accelerometer x follows the rate of the temperature.
 Recording recorded(const mc::Study& s) {
-  Timeline timeline = lay_out(s.plan, s.site);
-  Environment swing;
-  CovariateCourse& course = swing[covariate("temperature")];
-  course.mean.front() = 25.0;
-  course.amplitude = 3.0;
-  course.period = 10800.0;
-  set_environment(timeline, swing, 1, 0);
-  TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
-  for (const char* key : {"K0_T_rate_y", "K0_T_rate_z"}) draw.theta[test::param(key)] = 0.0;
-  draw.theta[test::param("K0_T_rate_x")] = hysteresis;
-  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured,
-                        s.readout);
+  return test::simulated_in_a_swing(
+      s, {{"K0_T_rate_x", hysteresis}, {"K0_T_rate_y", 0.0}, {"K0_T_rate_z", 0.0}});
 }
 
 Recording in_steps(Recording r) {

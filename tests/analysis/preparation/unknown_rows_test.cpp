@@ -25,19 +25,9 @@ mc::Study study(std::initializer_list<std::string_view> parameters) {
   return s;
 }
 
-/// Its temperature swings by 3 K in three hours.
 Recording recorded(const mc::Study& s) {
-  Timeline timeline = lay_out(s.plan, s.site);
-  Environment swing;
-  CovariateCourse& course = swing[covariate("temperature")];
-  course.mean.front() = 25.0;
-  course.amplitude = 3.0;
-  course.period = 10800.0;
-  set_environment(timeline, swing, 1, 0);
-  TruthDraw draw = draw_truth(s.truth, timeline.chains, 1, 0);
-  draw.theta[test::param("K0_T_x")] = s.truth.active[test::param("K0_T_x")] ? per_degree : 0.0;
-  return make_recording(timeline, Simulator(s.truth, s.readout).run(timeline, draw, 1, 0).measured,
-                        s.readout);
+  const bool follows = s.truth.active[test::param("K0_T_x")];
+  return test::simulated_in_a_swing(s, {{"K0_T_x", follows ? per_degree : 0.0}});
 }
 
 Recording without(Recording r, std::string_view column, std::size_t first, std::size_t end) {

@@ -5,22 +5,15 @@
 #include <sys/stat.h>
 
 #include "core/base/check.hpp"
-#include "core/base/temporary_file.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::new_results_test {
 namespace {
 
 using test::ScratchFolder;
+using test::temporaries_in;
 using test::text_of;
 namespace fs = std::filesystem;
-
-std::size_t temporaries_in(const std::string& folder) {
-  std::size_t n = 0;
-  for (const auto& entry : fs::directory_iterator(folder))
-    n += is_temporary(entry.path().filename().string());
-  return n;
-}
 
 TEST(NewResults, AppearTogetherOrNotAtAll) {
   const ScratchFolder scratch;

@@ -15,22 +15,15 @@
 #include "core/base/results/register.hpp"
 #include "core/base/results/turn.hpp"
 #include "core/base/sha256.hpp"
-#include "core/base/temporary_file.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::results_folder_test {
 namespace {
 
 using test::ScratchFolder;
+using test::temporaries_in;
 using test::text_of;
 namespace fs = std::filesystem;
-
-std::size_t temporaries_in(const std::string& folder) {
-  std::size_t n = 0;
-  for (const auto& entry : fs::directory_iterator(folder))
-    n += is_temporary(entry.path().filename().string());
-  return n;
-}
 
 /// A process that begins a file and is ended before it can finish or tidy up.
 void killed_writer(const std::string& path) {
