@@ -193,7 +193,7 @@ struct WeighLimits {
   static constexpr double other_lambda = 3.0;  ///< [sigma] from the nominal equation's, to be named
   static constexpr double sign = 2.0;  ///< [sigma] expected, if another sign is to count against
   /// [2 log L] that an end of lambda gains on the joint fit: this lies outside the 95 % interval.
-  /// Test: AnotherEquation.HasALambda...
+  /// Test: ClosureProfile.*
   static constexpr double valley = 3.841458820694124;
   /// Odds against another cause. Test: CredibleSet.ASecondCauseIsOneInTwenty
   static constexpr double second_cause = 20.0;

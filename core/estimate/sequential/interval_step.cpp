@@ -156,9 +156,9 @@ Vec3 IntervalStep::gated(const Vec3& nu, const Sensitivity& H, double noise) con
   if (H.rate.cols() > 0) H_x.leftCols(H.rate.cols()) = H.rate;
   if (H.par.cols() > 0) H_x.rightCols(H.par.cols()) = H.par;
   const Mat3 cross = H_x * P_.cross().topRows(n) * H.psi.transpose();
-  const MatX P = P_.parameters().topLeftCorner(n, n);
   const Mat3 S = H.psi * P_.attitude() * H.psi.transpose() + cross + cross.transpose() +
-                 H_x * P * H_x.transpose() + noise * noise * Mat3::Identity();
+                 H_x * P_.parameters().topLeftCorner(n, n) * H_x.transpose() +
+                 noise * noise * Mat3::Identity();
   const double gate = outlier_gate(theta_);
   Vec3 inside = nu;
   for (int k = 0; k < 3; ++k)

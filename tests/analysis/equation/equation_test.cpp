@@ -7,6 +7,9 @@
 #include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/equation/closure_profile.hpp"
+#include "analysis/equation/held_parameter.hpp"
+#include "analysis/inference/signatures.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "core/sim/simulate.hpp"
@@ -183,13 +186,58 @@ TEST(Equation, LevelPositionsCannotTellAndTheAdviceWorksWhenFollowed) {
   EXPECT_TRUE(diagnosis::advise(s, {recording}, told).empty());
 }
 
+/// Free drift under eq. (6), which shows no misalignment, for a nominal eq. (5).
+mc::Study hidden_misalignments() {
+  return short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"},
+                                                {"plan.sample", "120 s"},
+                                                {"truth.coupling", "eq6"},
+                                                {"filter.nominal.coupling", "eq5"}});
+}
+
+TEST(ClosureProfile, HasTheMeanAndSigmaOfTheIntegralOverLambda) {
+  const mc::Study s = hidden_misalignments();
+  const Timeline timeline = lay_out(s.plan, s.site);
+  const TruthDraw draw = draw_truth(s.truth, timeline.chains, s.monte_carlo.seed, 0);
+  const Measurements measured =
+      Simulator(s.truth, s.readout).run(timeline, draw, s.monte_carlo.seed, 0).measured;
+  const MeasuredTest test{timeline, s.readout, measured};
+  FilterSpec family = s.filters.front();
+  family.coupling = family_of(family.coupling);
+  family.active.set(closure_param);
+  family.priors[closure_param] = TermLibrary::specs[closure_param].prior_si();
+  const BatchResult joint = fit_batch(family, test, make_layout(family).theta);
+  const VecX weight = VecX::Ones(inference::linear_problem(family, test, joint, {}).rows());
+  const auto profile = profile_closure(family, test, joint, weight, {}, -1e9);  // in any case
+  ASSERT_TRUE(profile);
+  // The trapezoid rule on a grid of a twentieth, as far as the prior goes.
+  const Prior prior = family.priors[closure_param];
+  std::vector<double> values, logs;
+  for (double value = -1.0; value < 2.01; value += 0.05) {
+    const double z = (value - prior.mean()) / prior.sigma();
+    values.push_back(value);
+    logs.push_back(fit_held(family, test, joint, closure_param, value, weight, {}).log2 - z * z);
+  }
+  const double top = std::ranges::max(logs);
+  double mass = 0.0, first = 0.0, second = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double p = std::exp(0.5 * (logs[k] - top));
+    mass += p;
+    first += p * values[k];
+    second += p * values[k] * values[k];
+  }
+  const double mean = first / mass, sigma = std::sqrt(second / mass - mean * mean);
+  // The profile goes from 0.35 below the lower of top and end to as far above the higher: two sigma
+  // and more to either side, beyond which lies a fifth of the variance at most.
+  EXPECT_NEAR(profile->value, mean, 0.25 * sigma);
+  EXPECT_NEAR(profile->sigma, sigma, 0.25 * sigma);
+  // No end lies above the joint fit by what its 95 % interval would exclude.
+  EXPECT_FALSE(profile_closure(family, test, joint, weight, {}));
+}
+
 TEST(Equation, IsNotToldByMisalignmentsThatVanishUnderTheNominalOne) {
   // Free drift under eq. (6) shows no misalignment; a nominal eq. (5) finds them at zero, where any
   // lambda fits as well. A well aligned platform under eq. (5) gives the same recording.
-  const mc::Study s = short_study("diagnose_equation.toml", {{"plan.dwell", "20 min"},
-                                                             {"plan.sample", "120 s"},
-                                                             {"truth.coupling", "eq6"},
-                                                             {"filter.nominal.coupling", "eq5"}});
+  const mc::Study s = hidden_misalignments();
   diagnosis::DiagnoseOptions options;
   options.folds = diagnosis::FoldMethod::linear;
   options.named_by = diagnosis::NamedBy::fit_alone;
