@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "analysis/cli/print.hpp"
+#include "core/base/stop_later.hpp"
 #include "core/base/temporary_file.hpp"
 #include "mc/engine/stop_signals.hpp"
 
@@ -30,6 +31,7 @@ void write_words(const char* words) {
 }
 
 extern "C" void on_stop(int number) {
+  if (StopLater::holds(number)) return;
   if (line_is_open() != 0) write_words("\n");
   write_words(texts[static_cast<std::size_t>(said.load())].data());
   remove_own_temporaries();

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <iterator>
 
+#include "core/base/stop_later.hpp"
 #include "core/base/temporary_file.hpp"
 
 namespace drift::mc {
@@ -17,7 +18,7 @@ std::array<struct sigaction, std::size(stop_signals)> before{};
 
 extern "C" void on_signal(int number) {
   int none = 0;
-  if (first_caught.compare_exchange_strong(none, number)) return;
+  if (first_caught.compare_exchange_strong(none, number) || StopLater::holds(number)) return;
   remove_own_temporaries();
   _exit(static_cast<int>(code_of_stop(number)));
 }

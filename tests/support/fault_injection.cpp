@@ -4,6 +4,7 @@
 //   DRIFT_FAULT_KIND=write  write, fsync, open, rename, close, or any of these (the default); read
 //   DRIFT_FAULT_UNDER=DIR   the folder whose files cannot be read
 //   DRIFT_FAULT_ERRNO=28    what it says; ENOSPC by default
+//   DRIFT_FAULT_SIGNAL=15   instead: the process gets this signal, and the call is made
 //   DRIFT_FAULT_STICKY=1    all calls after it fail too
 //   DRIFT_FAULT_HIT=FILE    made when a call was let fail; no other fails while it is there, unless
 //   sticky
@@ -22,6 +23,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -31,7 +33,7 @@ namespace {
 
 struct Plan {
   long at = -1;
-  int error = ENOSPC;
+  int error = ENOSPC, signal = 0;
   bool sticky = false;
   const char* kind = "any";
   const char* under = nullptr;
@@ -43,6 +45,7 @@ const Plan& plan() {
     Plan p;
     if (const char* at = std::getenv("DRIFT_FAULT_AT")) p.at = std::atol(at);
     if (const char* error = std::getenv("DRIFT_FAULT_ERRNO")) p.error = std::atoi(error);
+    if (const char* number = std::getenv("DRIFT_FAULT_SIGNAL")) p.signal = std::atoi(number);
     if (const char* kind = std::getenv("DRIFT_FAULT_KIND")) p.kind = kind;
     p.under = std::getenv("DRIFT_FAULT_UNDER");
     p.sticky = std::getenv("DRIFT_FAULT_STICKY") != nullptr;
@@ -65,6 +68,10 @@ bool fails(const char* kind) {
     if (!p.sticky && ::access(p.hit, F_OK) == 0) return false;
     const long fd = ::syscall(SYS_openat, AT_FDCWD, p.hit, O_WRONLY | O_CREAT, 0600);
     ::syscall(SYS_close, fd);
+  }
+  if (p.signal != 0) {
+    ::raise(p.signal);
+    return false;
   }
   errno = p.error;
   return true;

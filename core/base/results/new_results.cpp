@@ -9,6 +9,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/sha256.hpp"
+#include "core/base/stop_later.hpp"
 
 namespace drift {
 namespace {
@@ -98,6 +99,7 @@ std::vector<std::string> NewResults::commit() {
   HashedFiles hashed;
   for (const Change& c : changes_)
     if (!c.hash.empty()) hashed.emplace_back(c.name, c.hash);
+  const StopLater whole;
   known_.add(folder_.command, hashed);
   for (std::size_t k = 0; k < changes_.size(); ++k) {
     AtomicFile& file = *changes_[k].file;

@@ -15,6 +15,7 @@ namespace drift {
 /// The files of an answer, which appear in a results folder together or not at all. What is added
 /// is written at once, under a temporary name; commit() gives all of them their names. Before that,
 /// and if a file cannot be written, the folder and the answer of an earlier call are as they were.
+/// A signal that asks the program to end waits until all have theirs (StopLater).
 ///
 /// Every function, with the folder as it was: InputError store if a name is somebody else's file;
 /// io if it is no file, or cannot be written.

@@ -160,6 +160,33 @@ TEST(FailedWrite, OfAnAnswerLeavesNothingOrTheOneBefore) {
     expect_answer_or_before(command, out, kept, fresh, kind, stride);
 }
 
+/// Told to end while its files take the place of another's, it ends when they have.
+TEST(FailedWrite, ASignalBetweenTheFilesOfAnAnswerMixesNoTwo) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), kept = scratch.file("kept"),
+                    command = "identify " + config("cheap.toml") + " --progress none -o ";
+  ASSERT_EQ(driftscope(command + kept + " --seed 1").code, 0);
+  ASSERT_EQ(driftscope(command + out + " --seed 2").code, 0);
+  const std::string before = numbers_of(kept), fresh = numbers_of(out);
+  std::size_t done = 0;
+  const std::size_t signals = with_faults(
+      DRIFT_PROGRAM, command + out + " --seed 2", "rename", 1,
+      [&](std::size_t) {
+        fs::remove_all(out);
+        fs::copy(kept, out, fs::copy_options::recursive);
+      },
+      [&](std::size_t at, const Answer& a) {
+        const std::string now = numbers_of(out);
+        EXPECT_EQ(a.code, static_cast<int>(ExitCode::terminated)) << at << ": " << a.err;
+        EXPECT_TRUE(now == before || now == fresh) << "mixed at " << at;
+        done += now == fresh;
+        expect_no_temporaries(out);
+      },
+      "DRIFT_FAULT_SIGNAL=15");
+  EXPECT_GE(signals, 4u) << "one for each file";
+  EXPECT_GE(done, 2u) << "none came between the files";
+}
+
 TEST(FailedWrite, OnADiskThatStaysFullLeavesNoAnswer) {
   const ScratchFolder scratch;
   const std::string out = scratch.file("out");
