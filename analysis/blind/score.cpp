@@ -146,7 +146,8 @@ TrialScore score_trial(const KeyEntry& key, const Answer& answer) {
   }
   for (const Alternative& a : alternatives) {
     if (!holds_all(a, key.effects)) continue;
-    s.in_set = s.in_set || (offers && alternatives.size() <= most_alternatives);
+    s.offered = s.offered || offers;
+    s.in_set = s.offered && alternatives.size() <= most_alternatives;
     if (!names || alternatives.size() != 1) continue;
     s.exact = std::all_of(a.begin(), a.end(), [&](const AnswerCause* c) {
       return std::any_of(key.effects.begin(), key.effects.end(),

@@ -25,8 +25,9 @@ struct TrialScore {
   bool exact = false;          ///< named, and exactly what was hidden
   bool exact_or_twin = false;  ///< exact, or ambiguous between what is hidden and its exact twins
                                ///< alone (thresholds.hpp)
-  bool in_set = false;  ///< named or ambiguous with at most three alternatives, one of them right
-  bool extra = false;   ///< named, right causes among others
+  bool in_set = false;   ///< named or ambiguous with at most three alternatives, one of them right
+  bool offered = false;  ///< as in_set, with any number of alternatives
+  bool extra = false;    ///< named, right causes among others
   bool subsystem = false;          ///< the first cause is of a right subsystem
   bool confidently_wrong = false;  ///< named, and no cause is right
   bool unexplained = false;

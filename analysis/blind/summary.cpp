@@ -194,6 +194,8 @@ void add_further(const Scores& scores, Summary& s) {
   add("8 sigma and above: unexplained", share(scores, large_single, unexplained));
   add("pairs: detected", share(scores, in(Stratum::pair), detected));
   add("pairs: named exactly", share(scores, in(Stratum::pair), exact));
+  add("pairs: named, or in a set of any size",
+      share(scores, in(Stratum::pair), [](auto& t) { return t.offered; }));
   add("pairs that cancel (cosine < -0.3): pair or set",
       share(
           scores,

@@ -105,6 +105,9 @@ TEST(BlindScore, ASetOfThreeHoldsItAndASetOfFourIsTooLarge) {
   EXPECT_FALSE(score_trial(magnetic, a).confidently_wrong);
   a.causes.push_back({"sag", "", 3, 0.1, {}});
   EXPECT_FALSE(score_trial(magnetic, a).in_set);
+  EXPECT_TRUE(score_trial(magnetic, a).offered);
+  a.causes.erase(a.causes.begin() + 1);
+  EXPECT_FALSE(score_trial(magnetic, a).offered);
 }
 
 TEST(BlindScore, ARightCauseAmongOthersIsNeitherExactNorWrong) {
