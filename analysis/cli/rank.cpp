@@ -12,6 +12,7 @@
 #include "analysis/cli/stop_at_once.hpp"
 #include "analysis/planning/shared_steps.hpp"
 #include "analysis/report/rank/report.hpp"
+#include "analysis/report/study/truth_memory.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/base/results/turn.hpp"
 
@@ -69,6 +70,7 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
     say("note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
         "one by one with --set\n",
         study.sweep.front().key);
+  say("{}", report::truth_memory_text(study, 0));
   planning::RankOptions what;
   what.improve = options.improve;
   what.criterion = options.criterion;

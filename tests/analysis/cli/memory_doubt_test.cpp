@@ -83,7 +83,7 @@ TEST(MemoryDoubt, IsToldByEveryCommandThatSimulatesOrEstimates) {
       return text.find(said) != std::string::npos;
     };
     for (const std::string& command :
-         {"check " + s, "simulate " + s + " -o " + recording,
+         {"check " + s, "rank " + s, "simulate " + s + " -o " + recording,
           "run " + s + " --progress none -o " + folder.file("run"),
           "identify " + s + " " + recording + " --progress none -o " + folder.file("id"),
           "diagnose " + s + " " + recording + " --progress none -o " + folder.file("d")})
