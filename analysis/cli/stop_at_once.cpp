@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "analysis/cli/print.hpp"
-#include "core/base/stop_later.hpp"
+#include "core/base/results/stop_later.hpp"
 #include "core/base/temporary_file.hpp"
 #include "mc/engine/stop_signals.hpp"
 

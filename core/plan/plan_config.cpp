@@ -40,18 +40,21 @@ void check_samples(Section& section, double dwell, double sample) {
                         section.full("dwell"), dwell, count, sample, most));
 }
 
-/// Whether something dwells so long: what [plan] has by default may be nobody's.
-enum class Dwell { held, default_of_positions };
+/// Where a dwell is held against its samples: what [plan] has by default may be nobody's, and what
+/// a position takes over from it is said once.
+enum class Checked { here, elsewhere };
 
-void read_dwell(Section& section, double& dwell, double& sample, Dwell use = Dwell::held) {
+void read_dwell(Section& section, double& dwell, double& sample, Checked where = Checked::here) {
   const std::size_t errors = section.report().errors();
   section.read(dwell_option, dwell);
   section.read(sample_option, sample);
-  if (section.report().errors() == errors && use == Dwell::held)
+  if (section.report().errors() == errors && where == Checked::here)
     check_samples(section, dwell, sample);
 }
 
-Position read_position(Section section, std::size_t number, const PlanDefaults& defaults) {
+/// `inherited`: where the dwell of `defaults` is held against its samples.
+Position read_position(Section section, std::size_t number, const PlanDefaults& defaults,
+                       Checked inherited) {
   Position p;
   section.defaults_come_from("as [plan]");
   p.name = fmt::format("position {}", number);
@@ -72,7 +75,8 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
                       "y=W z=U\"). Correct the directions N S E W U D",
                       section.full("axes"), p.axes, why));
   }
-  read_dwell(section, p.dwell, p.sample);
+  const bool own = section.has("dwell") || section.has("sample");
+  read_dwell(section, p.dwell, p.sample, own ? Checked::here : inherited);
   section.read(Option{.key = "mode", .doc = "command law"}, p.mode, command_laws);
   if (section.read(Option{.key = "entry", .doc = "how it is entered"}, p.entry, ways_of_entry) &&
       number == 1 && p.entry == Entry::torqued)
@@ -87,7 +91,8 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
   return p;
 }
 
-void read_positions(Section& section, const PlanDefaults& defaults, TestPlan& plan) {
+void read_positions(Section& section, const PlanDefaults& defaults, Checked inherited,
+                    TestPlan& plan) {
   constexpr std::size_t most = 10000;
   const config::Node* node = section.take("position");
   auto list = section.sections("position");
@@ -98,7 +103,7 @@ void read_positions(Section& section, const PlanDefaults& defaults, TestPlan& pl
                                        section.full("position"), list.size(), most));
   std::vector<std::string> names;
   for (auto& position : list) {
-    plan.positions.push_back(read_position(position, names.size() + 1, defaults));
+    plan.positions.push_back(read_position(position, names.size() + 1, defaults, inherited));
     const auto& name = plan.positions.back().name;
     if (name.empty() || std::find(names.begin(), names.end(), name) != names.end())
       section.report().error(
@@ -138,8 +143,8 @@ std::optional<E> read_optional(Section& section, std::string_view key,
 void read_platform(Section& section, TestPlan& plan) {
   PlanDefaults defaults;
   const bool by_default = !section.has("dwell") && section.has("position");
-  read_dwell(section, defaults.dwell, defaults.sample,
-             by_default ? Dwell::default_of_positions : Dwell::held);
+  const Checked dwell = by_default ? Checked::elsewhere : Checked::here;
+  read_dwell(section, defaults.dwell, defaults.sample, dwell);
   defaults.mode = read_optional(section, "mode", command_laws);
   defaults.entry = read_optional(section, "entry", ways_of_entry);
   section.read(Option{"slew_rate", unit::deg_per_s, 1e-4, 360.0, "of a torqued entry"},
@@ -164,7 +169,7 @@ void read_platform(Section& section, TestPlan& plan) {
   if (preset != nullptr) read_preset(section, defaults, plan);
   if (position != nullptr) {
     plan.positions.clear();
-    read_positions(section, defaults, plan);
+    read_positions(section, defaults, by_default ? Checked::here : Checked::elsewhere, plan);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace drift {
 namespace {
@@ -40,11 +41,19 @@ std::optional<Vec3> parse_direction(std::string_view letters) {
   return v / n;
 }
 
+/// The letters of a direction, of the one that points away from it.
+std::string opposite(std::string_view direction) {
+  constexpr std::string_view letters = "NSEWUD";
+  std::string other;
+  for (const char c : direction) other += letters[letters.find(c) ^ 1u];
+  return other;
+}
+
 }  // namespace
 
 std::optional<Mat3> parse_axes(std::string_view text, std::string& why) {
   Mat3 R_lp = Mat3::Zero();
-  std::array<bool, 3> given{};
+  std::array<std::string_view, 3> given{};
   std::size_t at = 0;
   while (true) {
     at = text.find_first_not_of(' ', at);
@@ -65,14 +74,14 @@ std::optional<Mat3> parse_axes(std::string_view text, std::string& why) {
           word.substr(2));
       return std::nullopt;
     }
-    if (given[axis]) {
+    if (!given[axis].empty()) {
       why = fmt::format("axis {} is given twice", word[0]);
       return std::nullopt;
     }
-    given[axis] = true;
+    given[axis] = word.substr(2);
     R_lp.col(axis) = *direction;
   }
-  if (!(given[0] && given[1] && given[2])) {
+  if (given[0].empty() || given[1].empty() || given[2].empty()) {
     why = "all three axes x, y and z must be given";
     return std::nullopt;
   }
@@ -81,7 +90,8 @@ std::optional<Mat3> parse_axes(std::string_view text, std::string& why) {
     return std::nullopt;
   }
   if (R_lp.determinant() < 0.0) {
-    why = "the axes are left-handed";
+    why = fmt::format("the axes are left-handed, with x={} and y={} z points {}", given[0],
+                      given[1], opposite(given[2]));
     return std::nullopt;
   }
   return R_lp;

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <iterator>
 
-#include "core/base/stop_later.hpp"
+#include "core/base/results/stop_later.hpp"
 #include "core/base/temporary_file.hpp"
 
 namespace drift::mc {

@@ -41,8 +41,9 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
 
 std::string held_text(const Tally& t) {
   if (t.most_held < t.least_held) return "";
-  return fmt::format("2 sigma hold {} to {} % of the errors (95.4 expected); ",
-                     percent_cell(t.least_held).text, percent_cell(t.most_held).text);
+  const std::string least = percent_cell(t.least_held).text, most = percent_cell(t.most_held).text;
+  return fmt::format("2 sigma hold {} % of the errors (95.4 expected); ",
+                     least == most ? least : fmt::format("{} to {}", least, most));
 }
 
 /// "without sag of the truth, or without drift_ramp of the truth".

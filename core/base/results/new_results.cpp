@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/base/check.hpp"
+#include "core/base/results/stop_later.hpp"
 #include "core/base/sha256.hpp"
-#include "core/base/stop_later.hpp"
 
 namespace drift {
 namespace {

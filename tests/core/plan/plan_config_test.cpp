@@ -85,6 +85,20 @@ TEST(PlanConfig, ADwellThatNoPositionHasNeedsNoWholeNumberOfSamples) {
       << "a dwell that is written down is meant";
 }
 
+TEST(PlanConfig, WhatPositionsTakeOverIsFoundWrongOnce) {
+  const std::string two =
+      "[[plan.position]]\naxes = \"x=N y=W z=U\"\n"
+      "[[plan.position]]\naxes = \"x=W y=S z=U\"\n";
+  const Read r = read("dwell = \"25 min\"\nsample = \"45 s\"\n" + two);
+  ASSERT_EQ(r.mistakes.size(), 1u);
+  EXPECT_NE(r.mistakes[0].find("'plan.dwell' = 1500 s is 33.3333 samples"), std::string::npos);
+  // Its own dwell, or a default of [plan] that nothing else holds, is a position's own mistake.
+  EXPECT_EQ(read("dwell = \"30 min\"\nsample = \"45 s\"\n" + two + "dwell = \"25 min\"\n")
+                .mistakes.size(),
+            1u);
+  EXPECT_EQ(read("sample = \"7 s\"\n" + two).mistakes.size(), 2u);
+}
+
 TEST(PlanConfig, KeysOfTheOtherKindOfTestAreRefused) {
   for (const char* text :
        {"kind = \"strapdown\"\npreset = \"six\"\n", "kind = \"strapdown\"\ndwell = \"1 min\"\n",

@@ -28,6 +28,19 @@ TEST(Axes, DirectionsAndTheirMistakes) {
   }
 }
 
+TEST(Axes, OfALeftHandedFrameTheLastIsTurnedRound) {
+  for (const auto& [wrong, third] :
+       {std::pair{"x=N y=W z=D", "U"}, {"z=WD y=WU x=N", "EU"}, {"x=E y=N z=D", "U"}}) {
+    std::string why;
+    ASSERT_FALSE(parse_axes(wrong, why)) << wrong;
+    ASSERT_TRUE(why.ends_with(std::string(" z points ") + third)) << why;
+    std::string text = wrong;
+    const auto z = text.find("z=") + 2;
+    text.replace(z, text.find_first_of(" ", z) - z, third);
+    EXPECT_TRUE(parse_axes(text, why)) << text << ": " << why;
+  }
+}
+
 TEST(Presets, HoldTheirPositions) {
   const std::map<std::string, std::size_t> sizes{
       {"six", 6},       {"twelve", 12}, {"twentyfour", 24}, {"apollo10", 10},

@@ -1,4 +1,4 @@
-#include "core/base/stop_later.hpp"
+#include "core/base/results/stop_later.hpp"
 
 #include <signal.h>
 
