@@ -143,8 +143,8 @@ std::optional<E> read_optional(Section& section, std::string_view key,
 void read_platform(Section& section, TestPlan& plan) {
   PlanDefaults defaults;
   const bool by_default = !section.has("dwell") && section.has("position");
-  const Checked dwell = by_default ? Checked::elsewhere : Checked::here;
-  read_dwell(section, defaults.dwell, defaults.sample, dwell);
+  read_dwell(section, defaults.dwell, defaults.sample,
+             by_default ? Checked::elsewhere : Checked::here);
   defaults.mode = read_optional(section, "mode", command_laws);
   defaults.entry = read_optional(section, "entry", ways_of_entry);
   section.read(Option{"slew_rate", unit::deg_per_s, 1e-4, 360.0, "of a torqued entry"},

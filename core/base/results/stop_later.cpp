@@ -22,8 +22,7 @@ StopLater::~StopLater() {
 }
 
 bool StopLater::holds(int signal) noexcept {
-  // Noted before the look: the last one looks for it after it is gone, so that none is lost
-  // between.
+  // Noted before the look, as the last one looks for it after it is gone: none is lost between.
   waiting = signal;
   if (living > 0) return true;
   waiting = 0;

@@ -12,7 +12,7 @@ class StopLater {
   StopLater(const StopLater&) = delete;
   StopLater& operator=(const StopLater&) = delete;
 
-  /// For the handler of such a signal: whether it is to return at once; the signal comes again
+  /// For the handler of such a signal: whether it is to return at once. The signal comes again
   /// then.
   static bool holds(int signal) noexcept;
 };
