@@ -14,6 +14,7 @@
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/base/memory.hpp"
+#include "core/estimate/closure/closure_posterior.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/physics/stochastic.hpp"
@@ -41,6 +42,13 @@ std::vector<Job> jobs_of(const mc::Study& study) {
   return jobs;
 }
 
+void fit_by_batch(FilterRun& run, const FilterSpec& filter, const MeasuredTest& test,
+                  const Theta& start) {
+  run.batch = fit_batch(filter, test, start);
+  run.memory_doubt = memory_doubt(filter, run.batch, test.timeline);
+  run.batch.estimate = over_closure(filter, test, run.batch);
+}
+
 FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timeline,
                    const Measurements& measured) {
   const FilterSpec& filter = study.filters[job.filter];
@@ -49,8 +57,7 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   run.filter = job.filter;
   run.start = job.start;
   run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
-  run.batch = fit_batch(filter, {timeline, study.readout, measured}, start);
-  run.memory_doubt = memory_doubt(filter, run.batch, timeline);
+  fit_by_batch(run, filter, {timeline, study.readout, measured}, start);
   for (EstimateResult* result : {&run.ekf, &run.batch.estimate})
     result->noise_at_most = study.readout.accelerometers_rounded || study.readout.gimbals_rounded;
   return run;
@@ -92,8 +99,7 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  run.batch = fit_batch(filter, {timeline, study.readout, sim.measured}, start);
-  run.memory_doubt = memory_doubt(filter, run.batch, timeline);
+  fit_by_batch(run, filter, {timeline, study.readout, sim.measured}, start);
   return run;
 }
 

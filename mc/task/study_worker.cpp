@@ -5,6 +5,7 @@
 #include <ctime>
 #include <limits>
 
+#include "core/estimate/closure/closure_posterior.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/plan/environment.hpp"
 #include "mc/task/trace.hpp"
@@ -225,9 +226,8 @@ void StudyWorker::by_batch(Bench& bench, const Theta& from, std::size_t start, M
   using C = StudyColumns;
   const std::span<double> row = member.work->row;
   RunOutcome& out = member.work->outcome;
-  const BatchResult fit =
-      fit_batch(bench.spec, {timeline_, task_.study().readout, member.sim.measured}, from);
-  const EstimateResult& e = fit.estimate;
+  const MeasuredTest test{timeline_, task_.study().readout, member.sim.measured};
+  const EstimateResult e = over_closure(bench.spec, test, fit_batch(bench.spec, test, from));
   const C::Filter& at = bench.columns;
   row[at.at(start, C::status)] = static_cast<double>(e.status);
   if (e.status != EstimateStatus::ok) {
