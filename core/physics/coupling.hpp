@@ -19,6 +19,14 @@ enum class Coupling {
   servo,        ///< the null-seeking loop itself, integrated (servo.hpp)
 };
 
+/// The coupling that another is alike under some condition; itself where there is no such. It has
+/// no default: a row of the table that does not say it does not compile.
+struct Alike {
+  constexpr Alike(Coupling alike) : coupling(alike) {}
+  constexpr operator Coupling() const { return coupling; }
+  Coupling coupling;
+};
+
 /// What is to be known of a coupling beside its formula (closed_over).
 struct CouplingFacts {
   Coupling value;
@@ -27,12 +35,14 @@ struct CouplingFacts {
   std::string_view equation;      ///< the drift equation, on one line
   std::optional<double> lambda;   ///< which member of the family it is; none: it is none by name
   std::optional<Coupling> other;  ///< the other equation, where there are two
-  Coupling settles_to;            ///< the coupling it is alike once nothing moves any more
+  Alike settles_to;               ///< once nothing of its own moves any more
+  Alike compensating_nothing;     ///< while its loop believes in no misalignment (E_loop = 0)
 };
 
 inline constexpr CouplingFacts couplings[] = {
-    {Coupling::eq5, "eq5", 5, "w_cp = -C w_ic - w_l - w_md", 0.0, Coupling::eq6, Coupling::eq5},
-    {Coupling::eq6, "eq6", 6, "w_cp = -w_ic - C^-1 (w_l + w_md)", 1.0, Coupling::eq5,
+    {Coupling::eq5, "eq5", 5, "w_cp = -C w_ic - w_l - w_md", 0.0, Coupling::eq6, Coupling::eq5,
+     Coupling::eq5},
+    {Coupling::eq6, "eq6", 6, "w_cp = -w_ic - C^-1 (w_l + w_md)", 1.0, Coupling::eq5, Coupling::eq6,
      Coupling::eq6},
     {Coupling::lambda,
      "lambda",
@@ -40,6 +50,7 @@ inline constexpr CouplingFacts couplings[] = {
      "w_cp = -(I + lambda E)^-1 (C w_ic + w_l + w_md)",
      {},
      {},
+     Coupling::lambda,
      Coupling::lambda},
     {Coupling::compensated,
      "compensated",
@@ -47,8 +58,16 @@ inline constexpr CouplingFacts couplings[] = {
      "w_cp = -(I + E_loop)^-1 (C w_ic + w_l + w_md)",
      {},
      {},
-     Coupling::compensated},
-    {Coupling::servo, "servo", 0, "null-seeking loop, integrated", {}, {}, Coupling::eq6}};
+     Coupling::compensated,
+     Coupling::eq5},
+    {Coupling::servo,
+     "servo",
+     0,
+     "null-seeking loop, integrated",
+     {},
+     {},
+     Coupling::eq6,
+     Coupling::servo}};
 
 constexpr const CouplingFacts& facts(Coupling coupling) {
   return couplings[static_cast<std::size_t>(coupling)];
@@ -66,6 +85,11 @@ constexpr std::string_view key_of(Coupling coupling) {
 }
 constexpr std::string_view equation_of(Coupling coupling) {
   return facts(coupling).equation;
+}
+
+/// Whether it has no states of its own: a filter can have it as its equation.
+constexpr bool is_algebraic(Coupling coupling) {
+  return facts(coupling).settles_to == coupling;
 }
 
 /// With lambda as a parameter: a member of the family by name becomes the same by number.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/config/nearest.hpp"
+#include "core/physics/coupling_names.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/servo_config.hpp"
 
@@ -21,8 +22,7 @@ constexpr Named<LoopEstimate> loop_estimates[] = {{"given", LoopEstimate::given}
 /// Coupling, terms, parameters and noise: what truth and filters have in common.
 void read_model(Section& section, ModelSpec& spec) {
   section.require("coupling",
-                  "coupling = \"eq5\", \"eq6\", \"lambda\", \"compensated\" or \"servo\": no "
-                  "equation is the default");
+                  fmt::format("coupling = {}: no equation is the default", names_of_couplings()));
   // Where the coupling is wrong, lambda allows whatever the terms and parameters ask for.
   spec.coupling = Coupling::lambda;
   section.read(Option{.key = "coupling", .doc = "the drift equation"}, spec.coupling, couplings);
@@ -132,14 +132,14 @@ FilterSpec read_filter(Section section, std::size_t number, const Mounting& moun
   spec.name = fmt::format("filter {}", number);
   section.read(Option{.key = "name", .doc = "of the filter"}, spec.name);
   read_model(section, spec);
-  if (spec.coupling == Coupling::servo)
+  if (!is_algebraic(spec.coupling))
     section.report().error(
         section.take("coupling")->at,
-        fmt::format(
-            "'{}' = \"servo\" cannot be estimated with: the loop settles within a sample and its "
-            "states are not observable (expected \"eq5\", \"eq6\", \"lambda\" or \"compensated\"). "
-            "Choose the equation the loop settles to, \"eq5\" or \"eq6\"",
-            section.full("coupling")));
+        fmt::format("'{}' = \"{}\" cannot be estimated with: the loop settles within a sample and "
+                    "its states are not observable (expected {}). Choose the equation the loop "
+                    "settles to, \"eq5\" or \"eq6\"",
+                    section.full("coupling"), key_of(spec.coupling),
+                    names_of_couplings(is_algebraic)));
   read_starts(section, spec);
   section.finish();
   return spec;

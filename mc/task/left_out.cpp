@@ -45,12 +45,18 @@ bool acts(const TruthSpec& truth, const TermInfo& term) {
   return has_sizes ? any : all;
 }
 
+/// Lambda of a coupling whose loop compensates nothing; nothing if it is no member of the family by
+/// name.
+std::optional<double> lambda_compensating_nothing(Coupling coupling) {
+  return facts(facts(coupling).compensating_nothing).lambda;
+}
+
 /// Lambda of the equation that the truth obeys; nothing if it is no member of the family.
 std::optional<Prior> lambda_of(const TruthSpec& truth) {
   if (truth.coupling == Coupling::lambda) return truth.priors[closure_param];
-  if (truth.coupling == Coupling::compensated && truth.loop == LoopEstimate::given &&
-      truth.theta_loop.isZero(0.0))
-    return fixed(*facts(Coupling::eq5).lambda);
+  const auto lambda = lambda_compensating_nothing(truth.coupling);
+  if (lambda && truth.loop == LoopEstimate::given && truth.theta_loop.isZero(0.0))
+    return fixed(*lambda);
   Theta theta = Theta::Zero();
   set_lambda(truth, theta);
   if (!std::isfinite(theta[closure_param])) return std::nullopt;
@@ -58,16 +64,17 @@ std::optional<Prior> lambda_of(const TruthSpec& truth) {
 }
 
 bool same_equation(const TruthSpec& truth, const FilterSpec& filter) {
-  if (truth.coupling == Coupling::compensated && filter.coupling == Coupling::compensated)
-    return true;
+  if (truth.coupling == filter.coupling && truth.coupling != Coupling::lambda) return true;
   const std::optional<Prior> lambda = lambda_of(truth);
   if (!lambda) return false;
   if (filter.coupling == Coupling::lambda) {
     const Prior& own = filter.priors[closure_param];
     return own.sigma() > 0.0 || same(*lambda, own.mean());
   }
-  // The loop of any other truth compensates nothing: to "compensated" that is eq. (5).
-  return same(*lambda, facts(filter.coupling).lambda.value_or(*facts(Coupling::eq5).lambda));
+  // What the loop of a filter believes is what the truth's does, and that of another coupling
+  // believes nothing.
+  const auto own = lambda_compensating_nothing(filter.coupling);
+  return own && same(*lambda, *own);
 }
 
 /// Random walks of drifts, whether a term or a key of the model makes them.

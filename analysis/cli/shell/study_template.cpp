@@ -6,6 +6,7 @@
 
 #include "analysis/cli/still_to_check.hpp"
 #include "core/config/node.hpp"
+#include "core/physics/coupling_names.hpp"
 
 namespace drift::cli {
 namespace {
@@ -91,8 +92,8 @@ std::string terms_text(std::string_view more = "") {
 std::string filter_text(std::string_view name, std::string_view coupling, std::string_view more) {
   return fmt::format(
       "\n[[filter]]\nname     = \"{}\"\ncoupling = \"{}\"            # the drift "
-      "equation: \"eq5\", \"eq6\" or \"lambda\"\n{}",
-      name, coupling, terms_text(more));
+      "equation: {}\n{}",
+      name, coupling, names_of_equations(), terms_text(more));
 }
 
 /// How an effect that the library does not have may be tried.

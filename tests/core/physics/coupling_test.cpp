@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/physics/closure.hpp"
+#include "core/physics/coupling_names.hpp"
 #include "core/physics/drift_model.hpp"
 #include "tests/support/model_builders.hpp"
 
@@ -39,6 +40,32 @@ TEST(Coupling, LambdaMakesOfTheFamilyTheEquationItStandsFor) {
     EXPECT_EQ(model.coupling, Coupling::lambda);
     EXPECT_LT((platform_rate(model, in, theta.data(), Mat3::Zero()) - own).norm(), 1e-18) << c.name;
   }
+}
+
+TEST(Coupling, ALoopThatBelievesNothingClosesOverWhatTheTableSays) {
+  Mat3 E;
+  E << 0.0, 3e-4, -5e-4, 2e-4, 0.0, 7e-4, -1e-4, 6e-4, 0.0;
+  const auto part = [&](Coupling coupling) -> Mat3 {
+    return closed_over(coupling, E, 0.37, Mat3::Zero()).K;
+  };
+  for (const CouplingFacts& c : couplings) {
+    EXPECT_EQ(part(c.compensating_nothing), part(c.value)) << c.name;
+    // What it is then, and what it settles to, is that for good.
+    EXPECT_EQ(facts(c.compensating_nothing).compensating_nothing, c.compensating_nothing);
+    EXPECT_TRUE(is_algebraic(c.settles_to)) << c.name;
+  }
+}
+
+TEST(Coupling, IsListedFromTheTable) {
+  const std::string all = names_of_couplings(), equations = names_of_equations();
+  for (const CouplingFacts& c : couplings) {
+    const std::string quoted = '"' + std::string(c.name) + '"';
+    EXPECT_NE(all.find(quoted), std::string::npos) << all;
+    EXPECT_EQ(equations.find(quoted) != std::string::npos,
+              c.value != Coupling::servo && c.value != Coupling::compensated)
+        << equations;
+  }
+  EXPECT_EQ(names_of_couplings(is_algebraic).find("servo"), std::string::npos);
 }
 
 TEST(Closure, StandsBehindTheBaseTerms) {
