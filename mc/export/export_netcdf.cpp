@@ -12,21 +12,6 @@
 namespace drift::mc {
 namespace {
 
-using Fields = std::vector<std::pair<StudyColumns::Field, std::pair<const char*, const char*>>>;
-
-/// Numbers about a fit as a whole: their names, and what they are.
-const Fields& fields() {
-  static const Fields all{
-      {StudyColumns::status, {"fit", "how the fit ended: 0 ok, 1 not converged, 2 diverged"}},
-      {StudyColumns::nis, {"nis", "sum of the normalised innovations squared"}},
-      {StudyColumns::nis_dof, {"nis_dof", "measured scalars that nis sums over"}},
-      {StudyColumns::lag1, {"lag1", "correlation of whitened innovations one sample apart"}},
-      {StudyColumns::nees, {"nees", "normalised error squared in the observed directions"}},
-      {StudyColumns::nees_dof, {"nees_dof", "number of observed directions"}},
-      {StudyColumns::nees_all, {"nees_all", "the same of all directions"}}};
-  return all;
-}
-
 /// The arrays over runs, filled run after run; runs that are missing are NaN.
 class RunArrays {
  public:
@@ -43,8 +28,8 @@ class RunArrays {
     add(group.make("truth", axes.with_point({"run", "parameter"}),
                    {unit_of_parameter, "true value at the end of the test"}),
         parameters);
-    for (const auto& [field, text] : fields())
-      add(group.make(text.first, of_fit, {"1", text.second}), fits_);
+    for (const StoredField& field : stored_fields)
+      add(group.make(field.in_netcdf, of_fit, {"1", field.about}), fits_);
     add(group.make("status", axes.with_point({"run"}),
                    {"1", "how the run ended; -1 where it was not made"}, Hdf5Output::Type::i8),
         1);
@@ -109,9 +94,9 @@ class RunArrays {
           *(last(estimate) + at) = in_unit(row[f.estimate(s, k)], p);
           *(last(sigma) + at) = in_unit(row[f.sigma(s, k)], p);
         }
-        for (std::size_t i = 0; i < fields().size(); ++i)
-          *(last(first_field + i) + static_cast<std::ptrdiff_t>(fit)) =
-              row[f.at(s, fields()[i].first)];
+        for (const StoredField& field : stored_fields)
+          *(last(std::size_t{first_field} + field.value) + static_cast<std::ptrdiff_t>(fit)) =
+              row[f.at(s, field.value)];
       }
     arrays_.back().values.back() = static_cast<double>(status);
   }

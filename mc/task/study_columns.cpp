@@ -27,8 +27,6 @@ StudyColumns::StudyColumns(const Study& study) {
 }
 
 std::vector<Column> StudyColumns::named() const {
-  constexpr const char* names[fields] = {"status", "nis",      "nis_dof", "lag1",
-                                         "nees",   "nees_dof", "nees_all"};
   std::vector<Column> columns;
   const auto parameter = [&](const std::string& prefix, std::size_t p) {
     const auto& spec = TermLibrary::specs[p];
@@ -38,8 +36,8 @@ std::vector<Column> StudyColumns::named() const {
   for (const Filter& filter : filters)
     for (std::size_t s = 0; s < filter.starts; ++s) {
       const std::string prefix = fmt::format("{}/{}", filter.name, s);
-      for (const char* name : names)
-        columns.push_back({fmt::format("{}/{}", prefix, name), unit::one});
+      for (const StoredField& field : stored_fields)
+        columns.push_back({fmt::format("{}/{}", prefix, field.name), unit::one});
       for (const std::size_t p : filter.layout.params) parameter(prefix + "/estimate", p);
       for (const std::size_t p : filter.layout.params) parameter(prefix + "/sigma", p);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -50,5 +52,32 @@ struct StudyColumns {
   /// "corrected/0/sigma/eta_x".
   std::vector<Column> named() const;
 };
+
+/// What a number about an estimate as a whole is called; it has no unit.
+struct StoredField {
+  StudyColumns::Field value;
+  const char* name;       ///< in the store and what is made of it
+  const char* in_netcdf;  ///< where the status of a run has the name of this one
+  const char* about;      ///< in netCDF
+};
+
+inline constexpr StoredField stored_fields[] = {
+    {StudyColumns::status, "status", "fit", "how the fit ended: 0 ok, 1 not converged, 2 diverged"},
+    {StudyColumns::nis, "nis", "nis", "sum of the normalised innovations squared"},
+    {StudyColumns::nis_dof, "nis_dof", "nis_dof", "measured scalars that nis sums over"},
+    {StudyColumns::lag1, "lag1", "lag1", "correlation of whitened innovations one sample apart"},
+    {StudyColumns::nees, "nees", "nees", "normalised error squared in the observed directions"},
+    {StudyColumns::nees_dof, "nees_dof", "nees_dof", "number of observed directions"},
+    {StudyColumns::nees_all, "nees_all", "nees_all", "the same of all directions"}};
+static_assert(
+    [] {
+      if (std::size(stored_fields) != StudyColumns::fields) return false;
+      for (std::size_t k = 0; k < StudyColumns::fields; ++k) {
+        const StoredField& f = stored_fields[k];
+        if (f.value != k || !f.name || !f.in_netcdf || !f.about) return false;
+      }
+      return true;
+    }(),
+    "a row for every field, in the order of the enum, that says all of it");
 
 }  // namespace drift::mc

@@ -81,6 +81,12 @@ TEST(StudyTask, NamesItsColumns) {
   const auto& right = task.layout().filters[0];
   EXPECT_EQ(names[0].name, "truth/D_F_x");
   EXPECT_EQ(names[right.at(1, C::nis)].name, "right/1/nis");
+  std::vector<std::string> of_the_fit;  // names of files that are there: they stay
+  for (std::size_t k = 0; k < C::fields; ++k)
+    of_the_fit.push_back(names[right.at(0, C::status) + k].name);
+  EXPECT_EQ(of_the_fit, (std::vector<std::string>{"right/0/status", "right/0/nis",
+                                                  "right/0/nis_dof", "right/0/lag1", "right/0/nees",
+                                                  "right/0/nees_dof", "right/0/nees_all"}));
   const auto eta = static_cast<std::size_t>(std::ranges::find(right.layout.params, param("eta_x")) -
                                             right.layout.params.begin());
   EXPECT_EQ(names[right.sigma(1, eta)].name, "right/1/sigma/eta_x");
