@@ -11,6 +11,7 @@
 
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/base/words.hpp"
+#include "core/params/covariates.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/reading_step.hpp"
 
@@ -158,9 +159,12 @@ void leave_out_fillers(Recording& r, std::vector<std::string>& remarks) {
         leave_out(channels, runs, r, remarks);
     for (Channel* c : channels) leave_out_of_one(*c, position, apart, angle, r, remarks);
   }
-  if (const auto c = std::ranges::find(r.channels, "temperature", &Channel::name);
-      c != r.channels.end())
-    leave_out_of_one(*c, position, FillerLimits::temperature, false, r, remarks);
+  for (const CovariateSpec& c : known_covariates)
+    for (std::size_t k = 0; k < c.components(); ++k) {
+      const auto of = std::ranges::find(r.channels, c.column(k).view(), &Channel::name);
+      if (of != r.channels.end())
+        leave_out_of_one(*of, position, c.usual * c.unit.to_si, false, r, remarks);
+    }
 }
 
 }  // namespace drift::preparation

@@ -7,7 +7,7 @@
 
 namespace drift::preparation {
 
-/// Takes out of accelerometers, gimbals and the temperature what a logger writes where it has read
+/// Takes out of accelerometers, gimbals and covariates what a logger writes where it has read
 /// nothing (999.999, 0, 85): one and the same number, to the last digit, in three rows and more of
 /// two positions and more, from which every neighbour of the position is far (FillerLimits). Of a
 /// number that all three accelerometers, or gimbals, read at once it is enough that one of them is

@@ -70,9 +70,10 @@ struct GravityLimits {
 struct FillerLimits {
   static constexpr std::size_t rows = 3, positions = 2;  ///< in which the number stands
   /// How far its neighbours are, at least: as an attitude from that of the plan [rad], and what
-  /// turns Up by as much [g]. A platform in free drift takes 40 minutes for that.
+  /// turns Up by as much [g]. A platform in free drift takes 40 minutes for that. A covariate: as
+  /// far as it may well be from its mean (CovariateSpec::usual), 10 degC, a fast chamber's two
+  /// minutes; of a field, its size.
   static constexpr double angle = largest_mismatch, force = largest_mismatch;
-  static constexpr double temperature = 10.0;  ///< [K]: a fast chamber's two minutes
 };
 
 /// Rows that all sensors repeat. Test: HeldRows.*

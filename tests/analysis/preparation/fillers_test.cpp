@@ -102,6 +102,27 @@ TEST(Fillers, ANumberIsOneWhereverAFineReadoutHasItToTheLastDigit) {
   EXPECT_EQ(missing(r, "acc_x"), 5u);
 }
 
+TEST(Fillers, NoCovariateJumpsByAsMuchAsItUsuallyVaries) {
+  for (const CovariateSpec& c : known_covariates)
+    for (std::size_t k = 0; k < c.components(); ++k) {
+      const double usual = c.usual * c.unit.to_si;
+      const std::string name(c.column(k).view());
+      Recording r = resting();
+      r.channels.push_back({name, c.unit, {}});
+      std::vector<double>& x = r.channels.back().values;
+      for (int row = 0; row < 30; ++row) x.push_back(usual * (0.2 + 1e-3 * row));
+      for (const std::size_t row : {3, 13, 23}) x[row] += 0.9 * usual;  // far, each another number
+      for (const std::size_t row : {7, 17, 27}) x[row] = 1.1 * usual;   // 0.9 off: may be read
+      std::vector<std::string> remarks;
+      leave_out_fillers(r, remarks);
+      EXPECT_EQ(missing(r, name.c_str()), 0u) << name;
+      for (const std::size_t row : {0, 10, 11, 25}) r.channels.back().values[row] = 1.5 * usual;
+      leave_out_fillers(r, remarks);
+      EXPECT_EQ(missing(r, name.c_str()), 4u) << name;
+      EXPECT_EQ(remarks.size(), 1u) << name;
+    }
+}
+
 TEST(Fillers, WhatIsReadStays) {
   Recording r = resting();
   std::vector<std::string> remarks;
