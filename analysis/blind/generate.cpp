@@ -210,10 +210,8 @@ MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const Tri
   hide(study, filter, plan, world, made.key);
   const Simulation sim = simulate_recorded(world, study.monte_carlo.seed, plan.number);
   Timeline recorded = world.timeline;
-  if (plan.stratum == Stratum::noisy_covariate) {
-    Stream stream(study.monte_carlo.seed, plan.number, Purpose::design, choice_stream + 1);
-    recorded = with_noisy_covariates(std::move(recorded), stream);
-  }
+  if (plan.stratum == Stratum::noisy_covariate)
+    recorded = with_noisy_covariates(std::move(recorded), study.monte_carlo.seed, plan.number);
   made.recording = make_recording(recorded, sim.measured, world.readout);
   made.recording.facts = {{std::string(made_here), fmt::format("blind trial {}", plan.number)}};
   made.key.certificate = certify(filter, world, sim.measured);

@@ -1,7 +1,11 @@
 #include "analysis/blind/noise_faults.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
+
+#include "analysis/blind/generate.hpp"
 
 namespace drift::blind {
 namespace {
@@ -38,6 +42,26 @@ HiddenEffect fault(std::string term, std::string words, std::vector<HiddenParame
 
 HiddenParameter minutes(std::string key, double seconds) {
   return {std::move(key), seconds / 60.0, "min"};
+}
+
+/// In which the noise of a covariate is drawn. Temperature and field take turns at one, as they did
+/// when there were no others: trials of old seeds stay what they were.
+std::uint32_t noise_stream(const CovariateSpec& c) {
+  return choice_stream + std::max(covariate("field").stream, c.stream);
+}
+
+/// 1 sigma of the noise of a covariate [SI]: a part of what it varies by (rms), of a vector of its
+/// size.
+double size_of_noise(const Timeline& timeline, const CovariateSpec& c, Stream& stream) {
+  double square = 0.0, largest = 0.0;
+  for (const Interval& i : timeline.intervals) {
+    const double size = c.is_vector() ? i.around1.vector(c).norm() : i.around1[c];
+    square += size * size;
+    largest = std::max(largest, size);
+  }
+  if (c.is_vector()) return largest * between(0.01, 0.05, stream);
+  return std::sqrt(square / static_cast<double>(timeline.intervals.size())) *
+         between(0.1, 0.5, stream);
 }
 
 }  // namespace
@@ -95,27 +119,21 @@ HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
   return e;
 }
 
-Timeline with_noisy_covariates(Timeline timeline, Stream& stream) {
-  std::array<double, known_covariates.size()> sigma{};
-  for (const CovariateSpec& c : known_covariates) {
-    double square = 0.0, largest = 0.0;
-    for (const Interval& i : timeline.intervals) {
-      const double size = c.is_vector() ? i.around1.vector(c).norm() : i.around1[c];
-      square += size * size;
-      largest = std::max(largest, size);
-    }
-    sigma[c.number] = c.is_vector()
-                          ? largest * between(0.01, 0.05, stream)
-                          : std::sqrt(square / static_cast<double>(timeline.intervals.size())) *
-                                between(0.1, 0.5, stream);
+Timeline with_noisy_covariates(Timeline timeline, std::uint64_t seed, std::uint64_t trial,
+                               std::span<const CovariateSpec> covariates) {
+  std::map<std::uint32_t, std::vector<CovariateSpec>> sharing;
+  for (const CovariateSpec& c : covariates) sharing[noise_stream(c)].push_back(c);
+  for (const auto& [index, turns] : sharing) {
+    Stream stream(seed, trial, Purpose::design, index);
+    std::vector<double> sigma;
+    for (const CovariateSpec& c : turns) sigma.push_back(size_of_noise(timeline, c, stream));
+    for (Interval& interval : timeline.intervals)
+      for (std::size_t j = 0; j < turns.size(); ++j)
+        for (std::size_t i = 0; i < turns[j].components(); ++i)
+          interval.around1.value[turns[j].first + i] += sigma[j] * stream.normal();
   }
-  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
-    Covariates& here = timeline.intervals[k].around1;
-    for (const CovariateSpec& c : known_covariates)
-      for (std::size_t i = 0; i < c.components(); ++i)
-        here.value[c.first + i] += sigma[c.number] * stream.normal();
-    if (k + 1 < timeline.intervals.size()) timeline.intervals[k + 1].around0 = here;
-  }
+  for (std::size_t k = 1; k < timeline.intervals.size(); ++k)
+    timeline.intervals[k].around0 = timeline.intervals[k - 1].around1;
   return timeline;
 }
 

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "analysis/blind/world.hpp"
 #include "core/base/rng.hpp"
+#include "core/params/covariates.hpp"
 
 namespace drift::blind {
 
@@ -20,7 +24,9 @@ inline constexpr std::size_t num_noise_faults = 6;
 HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream);
 
 /// The timeline as it is recorded with covariates that have noise of their own, white from row to
-/// row: 0.1 to 0.5 of what the temperature varies by (rms), 1 to 5 % of the field.
-Timeline with_noisy_covariates(Timeline timeline, Stream& stream);
+/// row: 0.1 to 0.5 of what a number varies by (rms), 1 to 5 % of a vector. A function of the seed,
+/// the trial and the covariate: what other covariates there are changes nothing.
+Timeline with_noisy_covariates(Timeline timeline, std::uint64_t seed, std::uint64_t trial,
+                               std::span<const CovariateSpec> covariates = known_covariates);
 
 }  // namespace drift::blind

@@ -35,8 +35,13 @@ struct CovariateSpec {
   double reason = 0.0;             ///< a sample of a recording that is larger is a mistake
   double usual = 0.0;              ///< how far it may well be from its mean; the size of a vector
   std::string_view example = {};   ///< what may be declared: "\"20 degC\""
-  std::size_t number = 0;          ///< place in the table; set there
-  std::size_t first = 0;           ///< place of its first component in Covariates; set there
+  /// Number of its stream of random draws, its own for good: a new row changes no draw of an old
+  /// seed.
+  std::uint32_t stream = no_stream;
+  std::size_t number = 0;  ///< place in the table; set there
+  std::size_t first = 0;   ///< place of its first component in Covariates; set there
+
+  static constexpr std::uint32_t no_stream = ~0u;
 
   constexpr CovariateSet set() const { return CovariateSet{1} << number; }
   constexpr bool is_vector() const { return kind == Kind::vector; }
@@ -75,7 +80,8 @@ inline constexpr auto known_covariates = detail::numbered(std::array{
                   .swing = 100.0,
                   .reason = 250.0,
                   .usual = 10.0,
-                  .example = "\"20 degC\""},
+                  .example = "\"20 degC\"",
+                  .stream = 0},
     CovariateSpec{.name = "field",
                   .what = "magnetic field",
                   .measures = "a magnetic field, for example [gauss] or [uT]",
@@ -85,8 +91,19 @@ inline constexpr auto known_covariates = detail::numbered(std::array{
                   .most = 1e3,
                   .reason = 1e3,
                   .usual = 0.5,
-                  .example = "\"0.26 gauss\", \"0 gauss\", \"-0.48 gauss\""},
+                  .example = "\"0.26 gauss\", \"0 gauss\", \"-0.48 gauss\"",
+                  .stream = 1},
 });
+static_assert(
+    [] {
+      for (const CovariateSpec& a : known_covariates)
+        for (const CovariateSpec& b : known_covariates)
+          if (a.stream == CovariateSpec::no_stream ||
+              (a.number != b.number && a.stream == b.stream))
+            return false;
+      return true;
+    }(),
+    "every covariate has a stream of its own");
 
 /// A covariate named in the code; a typo does not compile.
 consteval const CovariateSpec& covariate(std::string_view name) {

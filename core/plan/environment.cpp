@@ -62,8 +62,7 @@ void set_environment(Timeline& timeline, const Environment& e, std::uint64_t see
     if (c.is_vector())
       set_vector(timeline, c, e[c]);
     else
-      set_number(timeline, c, e[c],
-                 Stream(seed, run, Purpose::environment, static_cast<std::uint32_t>(c.number)));
+      set_number(timeline, c, e[c], Stream(seed, run, Purpose::environment, c.stream));
   }
 }
 

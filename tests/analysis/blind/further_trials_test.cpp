@@ -1,9 +1,12 @@
 // Harder trials, asked for by number: strata of their own that change no other trial.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include "analysis/blind/design.hpp"
+#include "analysis/blind/generate.hpp"
 #include "analysis/blind/noise_faults.hpp"
 #include "analysis/blind/session/answer_trials.hpp"
 #include "analysis/blind/session/make_trials.hpp"
@@ -96,8 +99,7 @@ TEST(BlindFurther, ACovariateIsRecordedWithNoiseThatMeetsAtTheEndsOfIntervals) {
     i.around1[covariate("temperature")] = k % 2 ? 1.0 : -1.0;
     timeline.intervals.push_back(i);
   }
-  Stream stream(1, 1, Purpose::test);
-  const Timeline noisy = with_noisy_covariates(timeline, stream);
+  const Timeline noisy = with_noisy_covariates(timeline, 1, 1);
   double square = 0.0;
   for (std::size_t k = 0; k < noisy.intervals.size(); ++k) {
     const double off = noisy.intervals[k].around1[covariate("temperature")] -
@@ -111,6 +113,41 @@ TEST(BlindFurther, ACovariateIsRecordedWithNoiseThatMeetsAtTheEndsOfIntervals) {
   // 0.1 to 0.5 of the rms of 1; the rms of 400 draws is known to 3.5 %, four of which are allowed.
   EXPECT_GT(std::sqrt(square), 0.086);
   EXPECT_LT(std::sqrt(square), 0.57);
+}
+
+TEST(BlindFurther, TheNoiseOfCovariatesIsThatOfTheSeedWhateverOthersThereAre) {
+  CovariateSpec further = covariate("temperature");
+  further.name = "pressure";
+  further.number = known_covariates.size();
+  further.first = covariate_components;  // where a column of a study's own would be
+  further.stream = 1000;
+  std::vector<CovariateSpec> all(known_covariates.begin(), known_covariates.end());
+  all.insert(all.begin(), further);
+  Timeline timeline;
+  for (int k = 0; k < 50; ++k) {
+    Interval i;
+    i.around1[covariate("temperature")] = i.around1[further] = k % 2 ? 1.0 : -1.0;
+    i.around1.vector(covariate("field")) = Vec3(0.3, 0.0, -0.4);
+    timeline.intervals.push_back(i);
+  }
+  const Timeline known = with_noisy_covariates(timeline, 5, 3),
+                 more = with_noisy_covariates(timeline, 5, 3, all);
+  // Of temperature and field as it was drawn for the trials that are published: in turns.
+  Stream stream(5, 3, Purpose::design, choice_stream + 1);
+  const double temperature = 0.1 * std::pow(5.0, stream.uniform()),
+               field = 0.5 * 0.01 * std::pow(5.0, stream.uniform());
+  for (std::size_t k = 0; k < known.intervals.size(); ++k) {
+    const Covariates &was = timeline.intervals[k].around1, &is = known.intervals[k].around1;
+    const double off = temperature * stream.normal();
+    EXPECT_NEAR(is[covariate("temperature")] - was[covariate("temperature")], off, 1e-13);
+    for (int a = 0; a < 3; ++a)
+      EXPECT_NEAR(is.vector(covariate("field"))[a] - was.vector(covariate("field"))[a],
+                  field * stream.normal(), 1e-13);
+    for (std::size_t place = 0; place < covariate_components; ++place)
+      EXPECT_EQ(more.intervals[k].around1.value[place], is.value[place]) << place;
+    EXPECT_NE(more.intervals[k].around1[further], was[further]);
+    EXPECT_EQ(is[further], was[further]);
+  }
 }
 
 }  // namespace

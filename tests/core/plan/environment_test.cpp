@@ -73,6 +73,20 @@ TEST(Environment, ItsMistakesAreNamed) {
   }
 }
 
+TEST(Environment, FluctuatesByTheDrawsOfItsSeedForGood) {
+  Timeline planned = lay_out(preset_plan("six", PlanDefaults{}).value(), harbin);
+  Environment e;
+  e[temperature].mean[0] = 20.0;
+  e[temperature].fluctuation = 0.01;
+  set_environment(planned, e, 3, 1);
+  Stream stream(3, 1, Purpose::environment, 0);  // its number, as of the first studies
+  stream.normal();                               // of the begin
+  const double first = stream.normal(), second = stream.normal();
+  // Less the mean of all: rounding of 0.01.
+  EXPECT_NEAR(planned.intervals[1].around1[temperature] - planned.intervals[0].around1[temperature],
+              0.01 * (second - first), 1e-15);
+}
+
 TEST(Environment, IsTheSameInTheTestAndInItsRecording) {
   PlanDefaults defaults;
   defaults.dwell = 600.0;
