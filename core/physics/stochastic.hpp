@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "core/physics/model_spec.hpp"
 
@@ -68,8 +70,22 @@ inline double drift_variance_between_recordings(const TermMask& terms, const The
   const double B = bistable_size(theta, axis);
   return 2.0 * B * B;
 }
+
+/// A term that makes D_F vary at random.
+struct DriftNoise {
+  std::size_t term;
+  double (*size)(const Theta& theta, int axis);  ///< of gyro `axis` [SI]; zero: it is still
+};
+/// All there are. A platform with one of them is driven; an estimator that does not model it is
+/// refused.
+inline constexpr DriftNoise drift_noises[] = {
+    {TermLibrary::term_index("drift_random_walk"),
+     [](const Theta& theta, int axis) { return theta[TermLibrary::index("q_x") + axis]; }},
+    {TermLibrary::term_index("bistable_drift"), bistable_size}};
+
 inline bool drift_varies(const ProcessNoise& noise, const TermMask& terms) {
-  return noise.drift_random_walk > 0.0 || walks(terms) || is_bistable(terms);
+  return noise.drift_random_walk > 0.0 ||
+         std::ranges::any_of(drift_noises, [&](const DriftNoise& n) { return terms[n.term]; });
 }
 
 inline bool drift_varies(const ModelSpec& spec) {

@@ -124,8 +124,7 @@ Theta Simulator::drift_of(const Timeline& timeline, std::size_t i, const Theta& 
 void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size_t end,
                           Simulation& out) {
   const ProcessNoise& noise = truth_.noise;
-  const bool noisy =
-      noise.any() || is_bistable(model_.terms) || walks(model_.terms) || disturbance_.cols() > 0;
+  const bool noisy = noise.any() || drift_varies(noise, model_.terms) || disturbance_.cols() > 0;
   PlatformOde& ode = engine_->ode;
   while (first < end && out.ode.ok()) {
     const std::size_t last = segment_end(timeline, first, end, noisy);

@@ -20,10 +20,9 @@ std::vector<std::string> drift_noise(const FilterSpec& filter, const Layout& lay
   const TermMask terms = filter.model().terms;
   std::vector<std::string> found;
   if (filter.noise.drift_random_walk > 0.0) found.emplace_back("'drift_random_walk'");
-  if (walks(terms) && drift_walk({}, terms, layout.theta, axis) > 0.0)
-    found.emplace_back("term 'drift_random_walk'");
-  if (is_bistable(terms) && bistable_size(layout.theta, axis) > 0.0)
-    found.emplace_back("term 'bistable_drift'");
+  for (const DriftNoise& n : drift_noises)
+    if (terms[n.term] && n.size(layout.theta, axis) != 0.0)
+      found.push_back(fmt::format("term '{}'", TermLibrary::terms[n.term].key));
   return found;
 }
 

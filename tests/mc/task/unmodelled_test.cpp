@@ -1,7 +1,10 @@
 #include "mc/task/unmodelled.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/estimate/layout.hpp"
+#include "core/physics/stochastic.hpp"
 #include "tests/mc/small_study.hpp"
 #include "tests/support/model_builders.hpp"
 
@@ -49,6 +52,19 @@ TEST(Unmodelled, ProcessNoiseIsNotModelledByABatchFit) {
   expect_said(said, {"'drift_random_walk'"});
   EXPECT_EQ(said.find("angle_random_walk"), std::string::npos);  // it is in the fit's weights
   EXPECT_EQ(refusal(mc::EstimatorKind::iterated, filter), "");
+}
+
+TEST(Unmodelled, IsInABatchFitWhateverLetsADriftVary) {
+  for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t) {
+    const std::string_view term = TermLibrary::terms[t].key;
+    const FilterSpec filter = filter_with({"fixed_drift", term}, Coupling::eq6);
+    const TermMask terms = filter.model().terms;
+    const double variance = drift_variance({}, terms, make_layout(filter).theta, 0, 60.0);
+    EXPECT_EQ(drift_varies({}, terms), variance > 0.0) << term;
+    const std::string said = refusal(mc::EstimatorKind::batch, filter);
+    EXPECT_EQ(said.find(fmt::format("(term '{}')", term)) != std::string::npos, variance > 0.0)
+        << term << ": " << said;
+  }
 }
 
 TEST(Unmodelled, NoiseOfNoSizeIsNone) {
