@@ -17,9 +17,22 @@ struct WeakDirection {
   VecX direction;  ///< unit vector over the prior-scaled parameters, layout order
 };
 
-/// Directions with an eigenvalue below `limit`, weakest first. With limit 1e-6 these are the exact
-/// degeneracies of the test (physics.md 2.4); below 1 the prior says more than the data.
+/// Information below which a test does not see a direction (physics.md 2.4): one prior sigma along
+/// it is 0.001 sigma of the data, and only a thousand would be one.
+inline constexpr double unseen_information = 1e-6;
+
+/// Directions with an eigenvalue below `limit`, weakest first; by the singular values of the root,
+/// so that small ones keep their digits. Below 1 the prior says more than the data. None of a root
+/// that is empty or not finite.
 std::vector<WeakDirection> weak_directions(const MatX& information_root, double limit);
+
+/// What rounding may leave of a signal that is none, per prior sigma [sigma]: n eps |R|, by which
+/// the rank of a matrix is told. A direction with no more is one that the test does not see at all.
+double rounding_signal(const MatX& information_root);
+
+/// How many of these directions, of this root, have no more than that.
+std::size_t exactly_unseen(const std::vector<WeakDirection>& directions,
+                           const MatX& information_root);
 
 /// How a batch fit is run.
 struct BatchOptions {

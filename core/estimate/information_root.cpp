@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/base/decompose.hpp"
 #include "core/estimate/batch.hpp"
@@ -18,12 +20,25 @@ MatX information_root(const std::vector<ChainEquations>& chains, std::size_t par
 }
 
 std::vector<WeakDirection> weak_directions(const MatX& information_root, double limit) {
-  const Eigensystem eigen = eigensystem(information_root.transpose() * information_root);
   std::vector<WeakDirection> weak;
-  for (Eigen::Index k = 0; k < eigen.values.size(); ++k)
-    if (eigen.values[k] < limit)
-      weak.push_back({std::max(0.0, eigen.values[k]), eigen.vectors.col(k)});
+  if (information_root.size() == 0 || !information_root.allFinite()) return weak;
+  const RightSingular svd = right_singular(information_root);
+  for (Eigen::Index k = svd.values.size(); k-- > 0;)
+    if (const double information = std::pow(svd.values[k], 2); information < limit)
+      weak.push_back({information, svd.vectors.col(k)});
   return weak;
+}
+
+double rounding_signal(const MatX& information_root) {
+  return static_cast<double>(information_root.cols()) * std::numeric_limits<double>::epsilon() *
+         information_root.norm();
+}
+
+std::size_t exactly_unseen(const std::vector<WeakDirection>& directions,
+                           const MatX& information_root) {
+  const double rounding = rounding_signal(information_root);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      directions, [&](const WeakDirection& d) { return std::sqrt(d.information) <= rounding; }));
 }
 
 }  // namespace drift

@@ -78,7 +78,7 @@ struct NullSpace {
                                   integrate_fixed(timeline, spec.model(), theta, psi),
                                   spec.initial_attitude),
             layout.size()),
-        1e-6);
+        unseen_information);
   }
   double share(std::initializer_list<std::pair<const char*, double>> direction) const {
     VecX v = VecX::Zero(static_cast<Eigen::Index>(layout.size()));
