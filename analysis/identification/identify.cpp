@@ -123,8 +123,10 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
       s.spread.push_back({s.layout.params[k], start_consistency(ekf, ekf_sigma),
                           start_consistency(batch, batch_sigma)});
     }
-    s.degeneracies = weak_directions(runs.front()->batch.information_root, 1e-6);
-    s.weak = weak_directions(runs.front()->batch.information_root, 1.0).size();
+    s.unseen = weak_directions(runs.front()->batch.information_root, 1.0);
+    s.weak = s.unseen.size();
+    std::erase_if(s.unseen,
+                  [](const WeakDirection& d) { return d.information >= unseen_information; });
     all.push_back(std::move(s));
   }
   return all;
@@ -232,6 +234,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   const std::uint64_t seed = study.monte_carlo.seed;
   set_environment(timeline, study.environment, seed, run);
   id.samples = samples_of(timeline, study.readout, {timeline.intervals.size()});
+  id.excitation = excitation_of(timeline);
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
@@ -267,6 +270,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   require_memory_for_histories(ready.study, ready.recordings);
   const preparation::RecordedTest test = preparation::recorded_test(ready.study, ready.recordings);
   id.samples = samples_of(test.timeline, ready.study.readout, test.ends);
+  id.excitation = excitation_of(test.timeline);
   run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
     return estimate(ready.study, job, test.timeline, test.measured);
   });

@@ -11,6 +11,7 @@
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
+#include "core/plan/excitation.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
 
@@ -38,9 +39,9 @@ struct FilterSummary {
   std::string name;
   Coupling coupling = Coupling::eq5;
   Layout layout;
-  std::vector<StartSpread> spread;          ///< layout order; NaN ratios with one start
-  std::vector<WeakDirection> degeneracies;  ///< exact: the data say nothing of these directions
-  std::size_t weak = 0;           ///< directions of which the prior says more than the data
+  std::vector<StartSpread> spread;    ///< layout order; NaN ratios with one start
+  std::vector<WeakDirection> unseen;  ///< directions below unseen_information, weakest first
+  std::size_t weak = 0;               ///< directions of which the prior says more than the data
   bool field_considered = false;  ///< sigmas hold the error of an assumed field (consider_field())
   std::optional<HeadingDoubt> heading_doubt;    ///< behind its misfit
   std::optional<LatitudeDoubt> latitude_doubt;  ///< behind it; not asked beside the other
@@ -67,6 +68,7 @@ struct Identification {
   std::vector<int> absent_positions;  ///< of the plan, in no recording (prepare())
   std::vector<std::string> absent;    ///< channels of [readout] that no recording measured
   std::vector<SampleOfTest> samples;
+  Excitation excitation;        ///< of the plan or of the recordings
   std::vector<Spike> spikes;    ///< of recordings: as the first filter's batch fit shows them
   std::vector<FilterRun> runs;  ///< by filter, then start
   std::vector<FilterSummary> summaries;

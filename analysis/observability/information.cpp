@@ -74,6 +74,7 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   out.layout = make_layout(spec);
   out.chains = timeline.chains;
   out.positions = timeline.positions;
+  out.excitation = excitation_of(timeline);
   out.duration = timeline.intervals.back().t1 - timeline.intervals.front().t0;
   const auto chains = measurement_equations({timeline, model.readout, measured}, spec.model(),
                                             out.layout, model.nominal, phi, spec.initial_attitude);

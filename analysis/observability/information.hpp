@@ -4,6 +4,7 @@
 
 #include "core/estimate/batch.hpp"
 #include "core/plan/environment.hpp"
+#include "core/plan/excitation.hpp"
 #include "core/sim/simulate.hpp"
 
 namespace drift::observability {
@@ -41,6 +42,7 @@ struct LinearisedPlan {
   int chains = 0, positions = 0;
   double duration = 0.0;      ///< [s]
   std::vector<TimeBin> bins;  ///< in order of time
+  Excitation excitation;
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(layout.size()); }
 };

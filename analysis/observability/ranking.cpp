@@ -13,13 +13,6 @@ namespace {
 
 constexpr double wide_attitude = 1e-4;  // weight of an attitude prior that says nothing
 
-std::vector<WeakDirection> unseen(const std::vector<EigenDirection>& spectrum) {
-  std::vector<WeakDirection> all;
-  for (auto d = spectrum.rbegin(); d != spectrum.rend() && d->information < exact_limit; ++d)
-    all.push_back({d->information, d->direction});
-  return all;
-}
-
 }  // namespace
 
 double ParameterRank::bits() const {
@@ -74,8 +67,12 @@ Ranking rank_parameters(const LinearisedPlan& plan) {
   std::iota(out.order.begin(), out.order.end(), std::size_t{0});
   std::ranges::stable_sort(out.order, {}, [&](std::size_t k) { return out.learning_ratio(k); });
   out.spectrum = spectrum_of(root);
-  out.exact = unseen(out.spectrum);
-  out.held_by_attitude = unseen(spectrum_of(information_root(plan, everything, wide_attitude)));
+  for (auto d = out.spectrum.rbegin(); d != out.spectrum.rend(); ++d)
+    if (d->information < unseen_information) out.unseen.push_back({d->information, d->direction});
+  out.root = root;
+  out.root_unheld = information_root(plan, everything, wide_attitude);
+  out.unheld = weak_directions(out.root_unheld, unseen_information);
+  out.excitation = plan.excitation;
   return out;
 }
 

@@ -37,16 +37,15 @@ struct Ranking {
   std::vector<std::size_t> order;         ///< states by rising learning ratio: the primary rank
   double bits = 0.0;                      ///< information gained in total, log2 det(1 + I) / 2
   std::vector<EigenDirection> spectrum;   ///< by falling information
-  std::vector<WeakDirection> exact;       ///< information below 1e-6: the data say nothing
-  std::vector<WeakDirection> held_by_attitude;  ///< the same if the attitude at each caging is
-                                                ///< unknown; includes `exact`
-  MatX covariance;                              ///< posterior, prior-scaled
+  MatX root;                              ///< of the information of the data, prior-scaled
+  std::vector<WeakDirection> unseen;      ///< information below unseen_information, weakest first
+  MatX root_unheld;                       ///< if the attitude at each caging is unknown
+  std::vector<WeakDirection> unheld;      ///< unseen then; what is unseen anyway is among them
+  Excitation excitation;                  ///< of the plan
+  MatX covariance;                        ///< posterior, prior-scaled
 
   double learning_ratio(std::size_t state) const { return parameters[state].learning_ratio(); }
 };
-
-/// Information below which a direction counts as exactly unseen.
-inline constexpr double exact_limit = 1e-6;
 
 /// Ranks by Fisher information (physics.md 5.1): learning ratio = posterior / prior sigma.
 Ranking rank_parameters(const LinearisedPlan& plan);

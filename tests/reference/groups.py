@@ -74,7 +74,7 @@ IDENTIFICATIONS = [  # name, study, overrides
 def of_identification(name, answer):
     for f in answer["filters"]:
         at = f"truth_{name}.filter_{f['name']}"
-        yield Number(f"{at}.exact_degeneracies", len(f["degeneracies"]), "count")
+        yield Number(f"{at}.unseen_directions", len(f["degeneracies"]), "count")
         for key in TABLE1:
             for estimator in ("ekf", "batch"):
                 yield Number(f"{at}.{key}.{estimator}.start_ratio",

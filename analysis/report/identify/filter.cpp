@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "analysis/report/identify/sections.hpp"
-#include "analysis/report/page/degeneracies.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "core/physics/stochastic.hpp"
@@ -201,21 +200,14 @@ Section estimates(const FilterView& v) {
            {estimate_table(v, On::page, 6), On::page}}};
 }
 
-/// The exact degeneracies of the test under this filter, under their common reasons.
-Section degeneracies(const FilterView& v) {
+/// What the test does not see under this filter.
+Section unseen(const FilterView& v) {
   const identification::FilterSummary& s = v.summary;
-  Table table(fmt::format("Exact degeneracies of filter {}: {} of {} directions in parameter space "
-                          "change nothing that is measured. {} directions (with these) are known "
-                          "better from the prior than from the data",
-                          v.spec().name, s.degeneracies.size(), s.layout.size(), s.weak),
-              "<direction, each parameter in its unit");
-  std::string reason;
-  for (const NamedDirection& d : name_degeneracies(s.layout, v.spec().mounting, s.degeneracies)) {
-    const std::string said = d.reason.empty() ? "for no known reason" : d.reason;
-    if (said != reason) table.add_heading(said + ":");
-    reason = said;
-    table.add({"  " + d.combination});
-  }
+  Table table = direction_table(
+      fmt::format("Directions in parameter space that filter {} does not see: of {}, {}. {} (with "
+                  "these) are known better from the prior than from the data",
+                  v.spec().name, s.layout.size(), unseen_text(s.unseen, root_of(v)), s.weak));
+  add_directions(table, unseen_directions(v));
   return {"", {table}};
 }
 

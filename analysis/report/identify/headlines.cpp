@@ -122,10 +122,9 @@ std::vector<std::string> sentences_of(const FilterView& v) {
   said.push_back(dispute_sentence(v, *runs.front()));
   said.push_back(considered_text(v));
   said.push_back(remembered_text(v));
-  if (!v.summary.degeneracies.empty())
-    said.push_back(
-        fmt::format("{} combinations of its {} parameters cannot be seen in this test at all.",
-                    v.summary.degeneracies.size(), v.summary.layout.size()));
+  if (!v.summary.unseen.empty())
+    said.push_back(fmt::format("of {} directions of its parameters {}.", v.summary.layout.size(),
+                               unseen_text(v.summary.unseen, root_of(v))));
   std::erase(said, "");
   return said;
 }

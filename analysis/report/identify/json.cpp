@@ -131,8 +131,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
       remembered[one.term] = one.part;
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;
-    f["degeneracies"] =
-        directions_json(name_degeneracies(summary.layout, spec.mounting, summary.degeneracies));
+    f["degeneracies"] = directions_json(unseen_directions({study, id, summary}));
     filters.push_back(std::move(f));
   }
   Json& published = out["published"] = Json::array();

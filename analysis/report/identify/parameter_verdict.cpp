@@ -14,7 +14,7 @@ constexpr double surely_wrong = 5.0;     // [sigma] off the truth: no right mode
 /// nothing: there the variance is one in units of the prior.
 double share_of_sums(const FilterView& v, std::size_t state, const ParameterEstimate& p) {
   double variance = 0.0;
-  for (const WeakDirection& d : v.summary.degeneracies)
+  for (const WeakDirection& d : v.summary.unseen)
     variance += std::pow(d.direction[static_cast<Eigen::Index>(state)], 2);
   return variance / std::pow(p.learning_ratio(), 2);
 }

@@ -23,8 +23,7 @@ struct FilterView {
 
 /// What is said of each filter, in this order.
 DRIFT_SECTIONS(FilterView, filter_sections, (against_prior, evidence), (filter_model, details),
-               (fits, how_sure), (estimates, details), (correlations, details),
-               (degeneracies, details));
+               (fits, how_sure), (estimates, details), (correlations, details), (unseen, details));
 
 /// Estimates against time from every start, with their sigma bands and the truth or an independent
 /// test as a line: all filters together (estimates.svg) and each alone (figure_<filter>.svg, a file
@@ -92,6 +91,15 @@ Cell verdict_cell(double ratio);
 /// What is believed of a filter.
 inline const EstimateResult& judged(const FilterView& v) {
   return identification::judged(v.spec(), *v.id.runs_of(v.summary.filter).front());
+}
+
+/// The information of the data by which that is judged that the test does not see.
+inline const MatX& root_of(const FilterView& v) {
+  return v.id.runs_of(v.summary.filter).front()->batch.information_root;
+}
+inline std::vector<NamedDirection> unseen_directions(const FilterView& v) {
+  return name_degeneracies(v.summary.layout, v.spec().mounting,
+                           {v.summary.unseen, root_of(v), v.id.excitation});
 }
 
 /// What a fit is worth by its chi-square alone: "ok" inside the 95 % band of a right model,

@@ -57,6 +57,7 @@ Json directions_json(const std::vector<NamedDirection>& directions) {
       parts[std::string(TermLibrary::specs[part.param].key.view())] = part.coefficient;
     all.push_back({{"combination", d.combination},
                    {"coefficients", parts},
+                   {"signal_sigma", d.signal},
                    {"reason", text_or_null(d.reason)}});
   }
   return all;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 namespace drift::report {
 namespace {
@@ -33,6 +36,51 @@ class Direction {
   bool complete_ = true;
 };
 
+/// The instrument whose parameter it is, 0 to 2; nothing if it belongs to none.
+std::optional<std::size_t> instrument_of(std::size_t param) {
+  const auto at = std::string_view("xyz").find(TermLibrary::specs[param].axis);
+  return TermLibrary::specs[param].axis.size() == 1 && at != std::string_view::npos
+             ? std::optional(at)
+             : std::nullopt;
+}
+
+/// The platform axis about which a command must be for a parameter of the torquers to be seen.
+std::optional<std::size_t> command_of(std::size_t param, const Mounting& mounting) {
+  const auto i = instrument_of(param);
+  if (!i || TermLibrary::owner(param).subsystem != Subsystem::torquer) return std::nullopt;
+  const std::string_view group = TermLibrary::specs[param].group.view();
+  const auto axis = [&](const SignedAxis& a) { return static_cast<std::size_t>(a.index); };
+  if (group == "X_S") return axis(mounting.gyro.third[*i]);  // cross-talk
+  if (group == "X_O") return axis(mounting.gyro.second[*i]);
+  return i;
+}
+
+/// The platform axes of whose specific forces a parameter multiplies the product.
+std::optional<std::pair<std::size_t, std::size_t>> product_of(std::size_t param,
+                                                              const Mounting& mounting) {
+  enum Which { input, second, third };
+  struct Product {
+    std::string_view group;
+    const Triads& triads;
+    Which one, other;
+  };
+  const Triads &gyro = mounting.gyro, &accelerometer = mounting.accelerometer;
+  const Product products[] = {
+      {"D_IO", gyro, input, second},         {"D_IS", gyro, input, third},
+      {"D_OS", gyro, second, third},         {"K_ip", accelerometer, input, second},
+      {"K_io", accelerometer, input, third}, {"K_po", accelerometer, second, third}};
+  const auto i = instrument_of(param);
+  const auto* p =
+      std::ranges::find(products, TermLibrary::specs[param].group.view(), &Product::group);
+  if (!i || p == std::end(products)) return std::nullopt;
+  const auto axis = [&](Which which) {
+    return which == input ? *i
+                          : static_cast<std::size_t>(
+                                (which == second ? p->triads.second : p->triads.third)[*i].index);
+  };
+  return std::pair(axis(p->one), axis(p->other));
+}
+
 double along(const SignedAxis& axis, const Vec3& v) {
   return axis.sign * v[axis.index];
 }
@@ -42,6 +90,8 @@ double along(const SignedAxis& axis, const Vec3& v) {
 std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Mounting& mounting) {
   std::vector<KnownDegeneracy> all;
   constexpr double exact = 1e-3;  // what rounding leaves of an eigenvector, with room
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  for (Eigen::Index k = 0; k < n; ++k) all.push_back({VecX::Unit(n, k), "", exact});
   // What is constant with all squares of an instrument.
   const auto add_squares = [&](const char* constant, std::array<const char*, 3> squares,
                                const char* words) {
@@ -91,14 +141,14 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
   return all;
 }
 
-std::string no_signal_reason(std::size_t param) {
-  const std::string_view group = TermLibrary::specs[param].group.view();
-  const auto is_one_of = [&](std::initializer_list<std::string_view> groups) {
-    return std::find(groups.begin(), groups.end(), group) != groups.end();
-  };
-  if (is_one_of({"D_IO", "D_IS", "D_OS", "K_ip"}))
+std::string no_signal_reason(std::size_t param, bool exact, const Mounting& mounting,
+                             const Excitation& excitation) {
+  if (!exact) return "hardly any signal in this test";
+  if (const auto axis = command_of(param, mounting); axis && !excitation.commanded[*axis])
+    return "no signal: the gyro is never torqued";
+  if (const auto axes = product_of(param, mounting);
+      axes && !excitation.along_both[axes->first][axes->second])
     return "no signal: a product of two axes, zero where one of them is level";
-  if (is_one_of({"s"})) return "no signal: the gyro is never torqued";
   return "no signal in this test";
 }
 

@@ -75,7 +75,7 @@ Json model_json(const mc::Study& study, const planning::ModelRanking& m) {
   out["bits"] = m.ranking.bits;
   out["parameters"] = rows_json(ranking_table(m, nullptr));
   out["spectrum"] = spectrum_json(m.ranking);
-  out["null_directions"] = directions_json(exact_degeneracies(m));
+  out["null_directions"] = directions_json(unseen_directions(m));
   out["held_by_attitude_prior"] = directions_json(held_by_attitude(m));
   out["pwcs"] = {{"rank", m.pwcs.rank},
                  {"states", m.pwcs.states},

@@ -34,13 +34,13 @@ std::string headline_of(const planning::RankingGroup& group, const planning::Mod
       std::ranges::count_if(r.spectrum, [](const auto& d) { return d.information > 1.0; });
   std::string text = fmt::format(
       "{} ({} {}): {:.1f} bits; {} of {} parameters end below half their prior sigma; {} "
-      "directions are better known from the data than from the prior, {} {} not seen at all.",
+      "directions are better known from the data than from the prior, {}.",
       key_of(m.model.spec.coupling), m.of_the_file() ? "filter" : "beside filter",
       m.of_the_file() ? m.filters : group.filters, r.bits, known, r.parameters.size(), better,
-      r.exact.size(), r.exact.size() == 1 ? "is" : "are");
-  if (r.held_by_attitude.size() > r.exact.size())
+      unseen_text(r.unseen, r.root));
+  if (r.unheld.size() > r.unseen.size())
     text += fmt::format(" {} more only because the attitude at the cagings has a prior.",
-                        r.held_by_attitude.size() - r.exact.size());
+                        r.unheld.size() - r.unseen.size());
   return text;
 }
 

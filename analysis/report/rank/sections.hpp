@@ -50,8 +50,8 @@ std::string_view equation_of_plan(const planning::PlanRanking& rank);
 Table improvement_table(const planning::PlanRanking& rank);
 /// The proposed positions as TOML: those to append, or, where the plan is a preset, all of them.
 std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank);
-/// Directions of which the data say nothing, and those that the attitude prior alone holds.
-std::vector<NamedDirection> exact_degeneracies(const planning::ModelRanking& model);
+/// Directions that the data do not see, and those that the attitude prior alone holds.
+std::vector<NamedDirection> unseen_directions(const planning::ModelRanking& model);
 std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& model);
 
 Json rank_document(const mc::Study& study, const planning::PlanRanking& rank);

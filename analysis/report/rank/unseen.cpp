@@ -10,29 +10,16 @@ namespace {
 
 constexpr double least_shown = -12.0;  // log10 of the information that counts as none in a picture
 
-/// A named direction over the prior-scaled layout, unit length.
-VecX scaled(const NamedDirection& direction, const Layout& layout) {
-  VecX v = VecX::Zero(static_cast<Eigen::Index>(layout.size()));
-  for (const auto& part : direction.parts) {
-    const auto k = std::ranges::find(layout.params, part.param) - layout.params.begin();
-    v[k] = part.coefficient * unit_of(part.param) / layout.sigma[k];
-  }
-  return v.normalized();
-}
-
 Table null_table(const planning::ModelRanking& m) {
-  Table t(fmt::format("Directions this test does not see, {}", key_of(m.model.spec.coupling)),
-          "<combination | <why");
-  const auto add = [&](const std::vector<NamedDirection>& all) {
-    for (const NamedDirection& d : all)
-      t.add({d.combination, d.reason.empty() ? "not a known one" : d.reason});
-  };
-  add(exact_degeneracies(m));
+  Table t = direction_table(
+      fmt::format("Directions this test does not see, {}", key_of(m.model.spec.coupling)));
+  add_directions(t, unseen_directions(m));
   if (const auto held = held_by_attitude(m); !held.empty()) {
-    t.add_heading("only the prior of the attitude at the cagings holds these:");
-    add(held);
+    t.add_heading(
+        "Only the prior of the attitude at the cagings holds these (signal: without that prior):");
+    add_directions(t, held);
   }
-  if (t.rows.empty()) t.note = "None: every direction leaves a signal, however small.";
+  if (t.rows.empty()) t.note = "None: every direction leaves a signal.";
   return t;
 }
 
@@ -44,21 +31,15 @@ bool same_rows(const Table& a, const Table& b) {
 
 }  // namespace
 
-std::vector<NamedDirection> exact_degeneracies(const planning::ModelRanking& m) {
-  return name_degeneracies(m.ranking.layout, m.model.spec.mounting, m.ranking.exact);
+std::vector<NamedDirection> unseen_directions(const planning::ModelRanking& m) {
+  const observability::Ranking& r = m.ranking;
+  return name_degeneracies(r.layout, m.model.spec.mounting, {r.unseen, r.root, r.excitation});
 }
 
 std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& m) {
-  constexpr double outside = 0.1;  // of a unit vector; parts below 2 % were left out of its name
-  std::vector<NamedDirection> found;
   const observability::Ranking& r = m.ranking;
-  if (r.held_by_attitude.size() <= r.exact.size()) return found;
-  for (NamedDirection& d : name_degeneracies(r.layout, m.model.spec.mounting, r.held_by_attitude)) {
-    VecX rest = scaled(d, r.layout);
-    for (const WeakDirection& w : r.exact) rest -= w.direction.dot(rest) * w.direction;
-    if (rest.norm() > outside) found.push_back(std::move(d));
-  }
-  return found;
+  return name_degeneracies(r.layout, m.model.spec.mounting, {r.unheld, r.root_unheld, r.excitation},
+                           r.unseen);
 }
 
 Chart spectrum_chart(const planning::RankingGroup& group) {
@@ -113,7 +94,7 @@ Section directions(const RankedGroup& v) {
             "# | information | left | <made of (participation)",
             "Eigenvalues of the prior-scaled information: 1 is as good as the prior.");
     const observability::Ranking& r = m.ranking;
-    const std::size_t seen = r.spectrum.size() - r.exact.size();
+    const std::size_t seen = r.spectrum.size() - r.unseen.size();
     for (std::size_t i = 0; i < seen; ++i) {
       if (i >= most && i + most < seen) continue;
       const observability::EigenDirection& d = r.spectrum[i];

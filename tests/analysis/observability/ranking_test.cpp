@@ -135,15 +135,17 @@ TEST(Ranking, WithGimbalsACagingCostsNoRank) {
       const TestPlan plan = plan_of(row.preset, CommandLaw::level, 3600.0, 300.0);
       const observability::Ranking r =
           observability::rank_parameters(observability::linearise(plan, model_of(coupling)));
-      EXPECT_EQ(r.layout.size() - r.exact.size(), row.acc_enc - 3u) << row.preset;
-      EXPECT_EQ(r.held_by_attitude.size(), r.exact.size()) << row.preset;
+      EXPECT_EQ(r.layout.size() - r.unseen.size(), row.acc_enc - 3u) << row.preset;
+      EXPECT_EQ(exactly_unseen(r.unseen, r.root), r.unseen.size()) << row.preset;
+      EXPECT_EQ(r.unheld.size(), r.unseen.size()) << row.preset;
     }
 }
 
 std::vector<std::string> combinations(const observability::Ranking& r,
                                       const std::vector<WeakDirection>& directions) {
   std::vector<std::string> all;
-  for (const auto& d : report::name_degeneracies(r.layout, Mounting{}, directions))
+  for (const auto& d :
+       report::name_degeneracies(r.layout, Mounting{}, {directions, r.root, r.excitation}))
     all.push_back(d.combination);
   return all;
 }
@@ -151,7 +153,7 @@ std::vector<std::string> combinations(const observability::Ranking& r,
 TEST(Ranking, ExactDegeneraciesAreFoundByName) {
   const observability::Ranking r = observability::rank_parameters(observability::linearise(
       plan_of("twentyfour", CommandLaw::level, 3600.0, 300.0), model_of(Coupling::eq5)));
-  const auto names = combinations(r, r.exact);
+  const auto names = combinations(r, r.unseen);
   ASSERT_EQ(names.size(), 18u);  // physics.md 2.4
   for (const char axis : {'x', 'y', 'z'}) {
     const auto has = [&](std::string text) {
@@ -178,9 +180,11 @@ TEST(Ranking, GaugeIsHeldByTheAttitudePriorAloneWithoutGimbals) {
   model.readout.gimbals = false;
   const observability::Ranking r = observability::rank_parameters(
       observability::linearise(plan_of("slew12", CommandLaw::level, 1200.0), model));
-  EXPECT_EQ(r.exact.size(), 0u);
-  ASSERT_EQ(r.held_by_attitude.size(), 3u);
-  const auto named = report::name_degeneracies(r.layout, Mounting{}, r.held_by_attitude);
+  EXPECT_EQ(r.unseen.size(), 0u);
+  ASSERT_EQ(r.unheld.size(), 3u);
+  const auto named = report::name_degeneracies(r.layout, Mounting{},
+                                               {r.unheld, r.root_unheld, r.excitation}, r.unseen);
+  ASSERT_EQ(named.size(), 3u);
   for (const auto& d : named) EXPECT_TRUE(d.reason.starts_with("gauge")) << d.combination;
   // The limit by priors: 1/sqrt(2/200^2 + 2/100^2 + 1/200^2) = 60.3 arcsec; data cannot beat it.
   const double limit = 1.0 / std::sqrt(3.0 / (200.0 * 200.0) + 2.0 / (100.0 * 100.0)) * arcsec;

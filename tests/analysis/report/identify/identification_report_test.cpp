@@ -27,9 +27,9 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
   mc::Study study = test::study();
   study.published = test::table_1();
   identification::Identification id = test::identification(study);
-  VecX no_signal = VecX::Zero(static_cast<Eigen::Index>(id.summaries[1].layout.size()));
-  no_signal[4] = 1.0;
-  id.summaries[1].degeneracies = {{0.0, no_signal}};
+  const auto n = static_cast<Eigen::Index>(id.summaries[1].layout.size());
+  id.runs[3].batch.information_root = (VecX::Ones(n) - VecX::Unit(n, 4)).asDiagonal();
+  id.summaries[1].unseen = {{0.0, VecX::Unit(n, 4)}};
   id.runs[4].ekf.status = EstimateStatus::diverged;
   id.runs[4].ekf.cause = "filter diverged at t = 60 s";
   const std::string text = to_text(report::identification_report(study, id));
@@ -41,6 +41,7 @@ TEST(IdentificationText, FitsOnAPageAndSaysWhatMatters) {
         "g_drift: D_I [deg/h/g], prior sigma 2", "eta_x", "1.010", "0.914 to 1.090",
         "Wilson-Hilferty", "diverged", "filter diverged at t = 60 s", "EKF 3", "depends on start",
         "Table 1 beside this run, filter legacy", "no signal",
+        "directions of its parameters 1 is not seen at all",
         "Filter corrected (eq5): no parameter depends on the start."})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }

@@ -38,7 +38,7 @@ TEST(ParameterVerdict, IsInASumAloneWhereThePriorDecidesMostOfItsVariance) {
   Fitted f;
   VecX unseen = VecX::Zero(static_cast<Eigen::Index>(f.id.summaries[0].layout.size()));
   unseen[1] = unseen[2] = std::sqrt(0.5);
-  f.id.summaries[0].degeneracies = {{0.0, unseen}};
+  f.id.summaries[0].unseen = {{0.0, unseen}};
   for (const std::size_t k : {1u, 2u})
     f.parameter(k).sigma = std::sqrt(0.5 + 0.01) * f.parameter(k).prior_sigma;
   EXPECT_EQ(f.verdict(1).worth, Worth::sum_only);
