@@ -42,7 +42,9 @@ void show_columns(const GuessedFile& file) {
     show("{:<22}{:>9}{:>7}{:>13}{:>13}  {}\n", c.header.name, c.numbers, c.texts,
          c.numbers > 0 ? fmt::format("{:.6g}", c.low) : "-",
          c.numbers > 0 ? fmt::format("{:.6g}", c.high) : "-",
-         c.channel.empty() ? "-" : c.channel + unit + (c.by_values ? " (by its values)" : ""));
+         !file.format.date.empty() && c.header.name == file.format.date ? "date of the time"
+         : c.channel.empty()                                            ? "-"
+                             : c.channel + unit + (c.by_values ? " (by its values)" : ""));
   }
 }
 

@@ -49,6 +49,10 @@ RawRecording with_format(RawRecording raw, const RecordingFormat& format, Record
     c.numbers = c.values.size();
   }
   if (raw.columns.empty()) return raw;
+  if (!format.date.empty())
+    problems.add("", "recording.date of the study file names a column of dates",
+                 "one in a text file: columns of this format hold numbers",
+                 "Remove it, and write times in seconds");
   const std::size_t before = problems.count();
   const auto uses = uses_of_columns(header, format, kind, problems, raw);
   raw.settled = problems.count() == before;

@@ -60,6 +60,7 @@ struct RecordingFormat {
   DecimalMark decimal = DecimalMark::automatic;
   std::uint64_t skip_rows = 0;  ///< lines before the header; 0: recognised
   std::optional<double> rate;   ///< of rows without a column of time [1/s]
+  std::string date;             ///< header of the dates of times of day; empty: none
   std::string counter;          ///< header of a counter that stands for time; empty: none
   std::optional<double> wrap;   ///< the counter begins again at 0 when it reaches this
   std::optional<double> tick;   ///< one count [s]

@@ -159,6 +159,11 @@ std::optional<double> parse_clock(std::string_view whole, StrokeDates order) {
   return *date + *of_day - *zone;
 }
 
+bool is_date(std::string_view text, StrokeDates order) {
+  text = trimmed(text);
+  return take_date(text, order) && text.empty();
+}
+
 std::optional<double> Clock::Reading::advance(std::string_view cell) {
   const auto now = parse_clock(cell, order);
   if (!now) return std::nullopt;

@@ -16,6 +16,9 @@ enum class StrokeDates { day_first, month_first };
 std::optional<double> parse_clock(std::string_view text,
                                   StrokeDates order = StrokeDates::day_first);
 
+/// Whether a text is a date alone, as it stands before the time of day in those.
+bool is_date(std::string_view text, StrokeDates order = StrokeDates::day_first);
+
 /// Reads a column of such times. Whether the day or the month of dates such as 03/04/2026 is first
 /// shows where the date changes: the other way the recording would be interrupted for weeks.
 class Clock {

@@ -92,12 +92,14 @@ class Assignment {
     for (const MappedColumn& m : format_.columns)
       require(m.own, fmt::format("recording.columns.{}", m.channel));
     require(format_.counter, "recording.counter");
+    require(format_.date, "recording.date");
     report_missing();
   }
 
   ColumnUse use_of(const HeaderCell& cell) {
     const auto called = [&](const std::string& own) { return is_called(cell, own); };
     if (called(format_.counter)) return {Role::counter, "counter", {}, 1.0};
+    if (called(format_.date)) return {Role::date, "date", {}, 1.0};
     if (std::ranges::any_of(format_.ignore, called)) return {Role::ignored, cell.whole, {}, 1.0};
     if (const MappedColumn* m = mapping(cell)) return mapped(cell, *m);
     if (is_channel(cell.name)) return {role_of(cell.name, kind_), cell.name, cell.unit, 1.0};

@@ -16,6 +16,7 @@ struct ColumnUse {
     ignored,
     time,
     counter,
+    date,  ///< of the times of day in the column of time
     position,
     phase,
     sensor,     ///< a cell that is no number is an error

@@ -41,6 +41,8 @@ CsvRows::CsvRows(const std::string& path, CsvLayout layout, const RecordingForma
     raw_.columns.push_back(std::move(column));
   }
   row_.resize(raw_.columns.size());
+  if (const auto date = std::ranges::find(uses_, Role::date, &ColumnUse::role); date != uses_.end())
+    date_column_ = static_cast<std::size_t>(date - uses_.begin());
 }
 
 std::string CsvRows::here(std::string_view column) const {
@@ -183,6 +185,7 @@ void CsvRows::read_row(std::string_view line) {
     last_row_cut_ = true;
     return;
   }
+  if (date_column_) date_ = cells[*date_column_];
   for (std::size_t i = 0; i < n; ++i)
     if (auto complaint = read_cell(i, cells[i])) pending_.push_back(std::move(*complaint));
   if (!pending_.empty()) {

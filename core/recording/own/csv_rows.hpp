@@ -56,9 +56,11 @@ class CsvRows {
   std::string decoded_;
   std::size_t windows_line_ = 0, point_line_ = 0, comma_line_ = 0;
   Clock clock_;
-  std::string last_end_;                 ///< the last cell of the row before
-  std::optional<std::size_t> decimals_;  ///< of the last column, where all rows have the same
-  bool rows_have_ends_ = false;          ///< a last cell was seen
+  std::optional<std::size_t> date_column_;  ///< whose cells stand before the times of day
+  std::string_view date_;                   ///< of this row
+  std::string last_end_;                    ///< the last cell of the row before
+  std::optional<std::size_t> decimals_;     ///< of the last column, where all rows have the same
+  bool rows_have_ends_ = false;             ///< a last cell was seen
   bool last_row_cut_ = false;
   std::size_t footer_lines_ = 0, footer_line_ = 0;  ///< of text, up to here; the first of them
   std::size_t repeated_headers_ = 0, repeated_line_ = 0;

@@ -46,8 +46,9 @@ bool has_thousands_marks(std::string_view text) {
 std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_view cell) {
   const ColumnUse& use = uses_[i];
   row_[i] = std::numeric_limits<double>::quiet_NaN();
-  if (use.role == Role::ignored) return std::nullopt;
+  if (use.role == Role::ignored || use.role == Role::date) return std::nullopt;
   if (use.role == Role::position) return read_position(i, cell);
+  if (use.role == Role::time && date_column_) return read_time(i, cell);
   RawColumn& column = raw_.columns[i];
   const ParsedCell parsed = parse_cell(cell, format_.decimal);
   if (parsed.kind == Kind::number) {
@@ -96,12 +97,18 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
 
 std::optional<CsvRows::Complaint> CsvRows::read_time(std::size_t i, std::string_view cell) {
   RawColumn& column = raw_.columns[i];
+  if (date_column_ && !is_date(date_) && !is_date(date_, StrokeDates::month_first))
+    return Complaint{here(layout_.header[*date_column_].whole), "found " + in_quotes(date_),
+                     "a date such as 2026-03-01",
+                     "Correct it, or remove recording.date from the study file"};
   const bool numbers = column.numbers > 0 && !column.clock;
-  const auto seconds = clock_.read(cell);
+  const auto seconds =
+      clock_.read(date_column_ ? fmt::format("{} {}", date_, cell) : std::string(cell));
   if (!seconds || numbers)
     return Complaint{here("time"), "found " + in_quotes(cell),
-                     seconds ? "a number as in the rows above"
-                             : "a number, or a time such as 2026-03-01T13:05:10.250",
+                     seconds        ? "a number as in the rows above"
+                     : date_column_ ? "a time of day such as 13:05:10.250 beside recording.date"
+                                    : "a number, or a time such as 2026-03-01T13:05:10.250",
                      "Write all times alike"};
   column.clock = true;
   column.unit = "s";

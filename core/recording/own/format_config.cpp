@@ -176,6 +176,14 @@ void read_header(Section& section, RecordingFormat& format) {
               section.full("header"), format.header[i], i + 1));
 }
 
+/// The header of one column; the key may be left out.
+void read_own_header(Section& section, const Option& option, std::string& header) {
+  if (section.has(option.key))
+    section.read(option, header);
+  else
+    section.take(option.key, Section::Kind::text, config::expected_text());
+}
+
 /// Keys of time that do not go together.
 void check_time(Section& section, const RecordingFormat& format) {
   const auto error = [&](std::string_view key, const std::string& text) {
@@ -192,6 +200,10 @@ void check_time(Section& section, const RecordingFormat& format) {
     error("counter",
           "is given without the length of a count (expected tick = \"100 us\", or rate = "
           "\"100 Hz\" where it counts rows). Add one");
+  if (!format.date.empty() && (format.rate || !format.counter.empty()))
+    error("date", fmt::format("is given together with {} (expected a column of times of day "
+                              "beside it). Remove one",
+                              format.rate ? "rate" : "counter"));
   if (format.tick && format.rate)
     error("tick", "is given together with rate (expected one of them). Remove one");
   if (mapped && (format.rate || !format.counter.empty()))
@@ -215,10 +227,10 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
     section.read(Option{.key = "decimal", .doc = "mark within numbers"}, format.decimal,
                  decimal_marks);
     section.read_options(format);
-    if (section.has("counter"))
-      section.read(Option{.key = "counter", .doc = "header of a counter"}, format.counter);
-    else
-      section.take("counter", Section::Kind::text, config::expected_text());
+    read_own_header(section, Option{.key = "counter", .doc = "header of a counter"},
+                    format.counter);
+    read_own_header(section, Option{.key = "date", .doc = "header of the dates of times of day"},
+                    format.date);
     section.read(Option{.key = "kind", .doc = "what a sample is"}, format.kind, sample_kinds);
     if (format.kind == SampleKind::increments && kind == RecordingKind::platform)
       section.report().error(section.take("kind")->at,

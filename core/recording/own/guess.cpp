@@ -8,18 +8,17 @@
 
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
-#include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_format.hpp"
 #include "core/recording/own/guess_gimbals.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_position.hpp"
+#include "core/recording/own/guess_time.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/like_temperature.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_channels.hpp"
-#include "core/recording/recording_check.hpp"
 #include "core/recording/recording_problems.hpp"
 #include "core/stats/median.hpp"
 
@@ -155,38 +154,6 @@ void name_by_unit(GuessedFile& file) {
   name_the_only(file, "temperature", looks_like_temperature);
 }
 
-/// A counter that stands for time where nothing else does.
-void guess_counter(GuessedFile& file) {
-  if (std::ranges::find(file.columns, "time", &GuessedColumn::channel) != file.columns.end())
-    return;
-  for (const GuessedColumn& c : file.columns) {
-    const bool xsens = c.header.name == "SampleTimeFine";  // 10 kHz in 32 bits
-    if (!c.channel.empty() || (!xsens && lower_case(c.header.name) != "counter")) continue;
-    (xsens ? file.format.counter : file.counter) = c.header.name;
-    if (xsens) {
-      file.format.tick = 1e-4;
-      file.format.wrap = 4294967296.0;
-    }
-    return;
-  }
-}
-
-/// A time in numbers that begins again at midnight is a counter of as many counts as make a day.
-void count_clock_of_numbers(GuessedFile& file) {
-  for (GuessedColumn& c : file.columns) {
-    const auto unit = c.channel == "time" ? parse_recording_unit(c.unit) : std::nullopt;
-    if (!unit || c.back.first == c.back.second ||
-        !begins_again_at_midnight(c.back.first * unit->to_si, c.back.second * unit->to_si))
-      continue;
-    constexpr double day = 86400.0;  // [s]
-    file.format.counter = c.header.name;
-    file.format.tick = unit->to_si;
-    file.format.wrap = std::round(day / unit->to_si);
-    c.channel.clear();
-    c.unit.clear();
-  }
-}
-
 /// Names the channels; of two columns that may be one channel, the first is.
 void name_channels(GuessedFile& file) {
   for (GuessedColumn& c : file.columns) {
@@ -206,31 +173,14 @@ void name_channels(GuessedFile& file) {
   if (has("gyro_") && !has("gimbal_") && !has("position")) file.kind = RecordingKind::strapdown;
 }
 
-/// The one column of texts that are all times of a clock is the time, whatever it is called.
-void name_time_by_values(GuessedFile& file) {
-  const auto is_time = [](const GuessedColumn& c) { return c.channel == "time"; };
-  if (!file.counter.empty() || !file.format.counter.empty() ||
-      std::ranges::any_of(file.columns, is_time))
-    return;
-  const auto clock = [](const GuessedColumn& c) {
-    const auto all = [&](StrokeDates order) {
-      return std::ranges::all_of(
-          c.words, [&](const auto& text) { return parse_clock(text, order).has_value(); });
-    };
-    return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 &&
-           (all(StrokeDates::day_first) || all(StrokeDates::month_first));
-  };
-  if (std::ranges::count_if(file.columns, clock) == 1)
-    std::ranges::find_if(file.columns, clock)->channel = "time";
-}
-
-/// The one column of a few texts may name the positions.
+/// The one column of a few texts may name the positions; dates and times of a clock do not.
 void name_position_by_values(GuessedFile& file) {
   if (file.kind != RecordingKind::platform ||
       std::ranges::find(file.columns, "position", &GuessedColumn::channel) != file.columns.end())
     return;
   const auto few_texts = [](const GuessedColumn& c) {
-    return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 && c.words.size() < most_words;
+    return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 &&
+           c.words.size() < most_words && !holds_dates(c) && !holds_times(c);
   };
   if (std::ranges::count_if(file.columns, few_texts) != 1) return;
   GuessedColumn& column = *std::ranges::find_if(file.columns, few_texts);

@@ -116,6 +116,7 @@ std::string recording_section(const GuessedFile& file) {
          : columns.empty()
              ? "# columns = { time = \"column_1 [s]\", gyro_x = \"column_2 [rad/s]\" }\n"
              : fmt::format("columns = {{ {} }}{}\n", columns, guessed_by_values(file));
+  if (!f.date.empty()) out += fmt::format("date = {}\n", quoted(f.date));
   if (!f.counter.empty())
     out += fmt::format("counter = {}\ntick    = \"{}\"\nwrap    = {:.0f}\n", quoted(f.counter),
                        duration_text(f.tick.value_or(0.0)), f.wrap.value_or(0.0));

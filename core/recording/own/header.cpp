@@ -69,7 +69,8 @@ std::vector<std::string_view> canonical_channels(RecordingKind kind) {
 
 bool is_known(const HeaderCell& cell, const RecordingFormat& format, RecordingKind kind) {
   const auto all = canonical_channels(kind);
-  if (std::ranges::find(all, cell.name) != all.end() || is_called(cell, format.counter))
+  if (std::ranges::find(all, cell.name) != all.end() || is_called(cell, format.counter) ||
+      is_called(cell, format.date))
     return true;
   const auto called = [&](const std::string& own) { return is_called(cell, own); };
   return std::ranges::any_of(format.columns, called, &MappedColumn::own) ||

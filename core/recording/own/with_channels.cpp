@@ -84,7 +84,7 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const ColumnUse& use = uses[i];
     RawColumn& column = raw.columns[i];
-    if (use.role == Role::ignored || use.role == Role::counter) continue;
+    if (use.role == Role::ignored || use.role == Role::counter || use.role == Role::date) continue;
     if (own_time && use.channel == "time") {
       out.remarks.add(
           Weight::note,

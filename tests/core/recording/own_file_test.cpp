@@ -285,6 +285,7 @@ TEST(OwnFile, MistakesInTheSectionAreNamed) {
       {"counter = \"n\"", "expected tick"},
       {"wrap = 256", "without a counter"},
       {"rate = \"1 Hz\"\ncolumns = { time = \"t [s]\" }", "together with a column of time"},
+      {"date = \"d\"\ncounter = \"n\"\ntick = \"1 s\"", "given together with counter"},
       {"kind = \"increments\"", "sensors fixed to a case"}};
   for (const auto& c : cases)
     EXPECT_NE(mistake(c.text).find(c.says), std::string::npos) << c.text << "\n" << mistake(c.text);
