@@ -154,13 +154,20 @@ void name_by_unit(GuessedFile& file) {
   name_the_only(file, "temperature", looks_like_temperature);
 }
 
-/// Names the channels; of two columns that may be one channel, the first is.
+/// Names the channels; of two columns that may be one channel, the first is, but a symbol of one
+/// letter ("T") after all words.
 void name_channels(GuessedFile& file) {
-  for (GuessedColumn& c : file.columns) {
+  std::vector<std::size_t> order;
+  for (const bool symbols : {false, true})
+    for (std::size_t i = 0; i < file.columns.size(); ++i)
+      if ((file.columns[i].header.name.size() == 1) == symbols) order.push_back(i);
+  for (const std::size_t i : order) {
+    GuessedColumn& c = file.columns[i];
     std::string channel = guessed_channel(c.header.name);
     const auto all = canonical_channels(RecordingKind::platform);
     if (std::ranges::find(all, c.header.name) != all.end()) channel = c.header.name;
-    if (std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
+    if (may_measure(c.header, channel) &&
+        std::ranges::find(file.columns, channel, &GuessedColumn::channel) == file.columns.end())
       c.channel = channel;
   }
   name_third_gimbal(file);

@@ -114,7 +114,8 @@ void name_third_gimbal(GuessedFile& file) {
       missing = channel;
   if (named != 2) return;
   for (GuessedColumn& c : file.columns)
-    if (c.channel.empty() && may_be_gimbal(c.header.name, missing)) {
+    if (c.channel.empty() && may_be_gimbal(c.header.name, missing) &&
+        may_measure(c.header, missing)) {
       c.channel = missing;
       return;
     }

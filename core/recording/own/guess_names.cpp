@@ -98,6 +98,10 @@ std::string guessed_unit(std::string_view header) {
   return {};
 }
 
+std::string unit_of_symbol(std::string_view header) {
+  return header.size() == last_part(header).size() + 2 ? guessed_unit(header) : std::string();
+}
+
 std::string guessed_channel(std::string_view header) {
   std::string_view name = header;
   if (!guessed_unit(header).empty())

@@ -28,6 +28,11 @@ bool holds_times_of_day(const GuessedColumn& c) {
   });
 }
 
+/// "T" without a unit may be anything.
+bool is_bare_symbol(const GuessedColumn& c) {
+  return c.header.name.size() == 1 && c.numbers > 0 && !c.header.unit;
+}
+
 }  // namespace
 
 bool holds_dates(const GuessedColumn& c) {
@@ -58,12 +63,15 @@ void guess_counter(GuessedFile& file) {
 void name_time_by_values(GuessedFile& file) {
   if (!file.counter.empty() || !file.format.counter.empty()) return;
   auto time = std::ranges::find(file.columns, "time", &GuessedColumn::channel);
-  if (time == file.columns.end()) {
-    const auto clock = [](const GuessedColumn& c) {
-      return c.channel.empty() && c.words.size() > 1 && holds_times(c);
-    };
-    if (std::ranges::count_if(file.columns, clock) != 1) return;
-    time = std::ranges::find_if(file.columns, clock);
+  const bool none = time == file.columns.end();
+  const auto clock = [](const GuessedColumn& c) {
+    return c.channel.empty() && c.words.size() > 1 && holds_times(c);
+  };
+  if (none || is_bare_symbol(*time)) {
+    const bool one = std::ranges::count_if(file.columns, clock) == 1;
+    if (none && !one) return;
+    if (!none && one) time->channel.clear();
+    if (one) time = std::ranges::find_if(file.columns, clock);
     time->channel = "time";
   }
   if (!holds_times_of_day(*time)) return;

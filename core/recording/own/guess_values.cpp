@@ -9,6 +9,7 @@
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/recording_unit.hpp"
+#include "core/recording/recording_channels.hpp"
 
 namespace drift {
 namespace {
@@ -63,6 +64,18 @@ std::optional<Unit> stated_unit(const GuessedColumn& c) {
   if (c.header.unit)
     if (const auto unit = parse_recording_unit(*c.header.unit)) return unit;
   return parse_recording_unit(guessed_unit(c.header.name));
+}
+
+bool may_measure(const HeaderCell& header, std::string_view channel) {
+  const auto quantity = known_quantity(channel);
+  const auto unit = parse_recording_unit(header.unit ? *header.unit : unit_of_symbol(header.name));
+  if (!quantity || !unit || unit->dim == quantity->dim) return true;
+  // In m/s^2 the gravity of the place makes g of it; gained over each sample, angles and velocities
+  // are what rates and accelerations are with kind = "increments".
+  const bool acceleration = channel.starts_with("acc_"), rate = channel.starts_with("gyro_");
+  return (acceleration && (unit->dim == "m/s^2"_unit.dim || unit->dim == "m/s"_unit.dim ||
+                           unit->dim == "g*s"_unit.dim)) ||
+         (rate && unit->dim == "rad"_unit.dim);
 }
 
 GuessByValues::GuessByValues(const GuessedFile& file) {

@@ -32,6 +32,10 @@ struct GuessLimits {
 /// The unit that the file gives a column, in the header or by the ending of its name, if it is one.
 std::optional<Unit> stated_unit(const GuessedColumn& column);
 
+/// Whether a column may be a channel by the unit that its header states: one of another dimension
+/// is not. Without one, or with one that is not known, it may.
+bool may_measure(const HeaderCell& header, std::string_view channel);
+
 /// Finds accelerometers and the heading of the case among columns that no name tells: three whose
 /// length is 1 g while they change, and one angle that changes only from position to position
 /// while the gimbals move.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_problems.hpp"
 
@@ -14,6 +15,8 @@ namespace drift {
 bool looks_like_temperature(const HeaderCell& cell) {
   if (cell.unit)
     if (const auto unit = parse_recording_unit(*cell.unit)) return unit->dim == "K"_unit.dim;
+  if (const auto unit = parse_recording_unit(unit_of_symbol(cell.name)); unit && !cell.unit)
+    return unit->dim == "K"_unit.dim;
   const std::string name = lower_case(folded(cell.name));
   if (name.find("temperat") != std::string::npos) return true;
   for (std::size_t begin = 0; begin < name.size();) {  // "Temp", "Temp_1", "T oil temp."

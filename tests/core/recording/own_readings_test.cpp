@@ -47,6 +47,34 @@ TEST(OwnReadings, TheOneColumnOfTimesOfAClockIsTheTime) {
   EXPECT_EQ(channels("Data", "primo", "secondo"), "position " + acc);
 }
 
+TEST(OwnReadings, UnitsOfTheHeadingDecideWhatAColumnIsNot) {
+  const Folder folder;
+  const auto channels = [&](const char* header, const char* first, const char* second) {
+    const GuessedFile file =
+        guess_file(folder.write("own.csv", fmt::format("{};ax [g];ay [g];az [g]\n{};0,98;0,1;0,17\n"
+                                                       "{};0,17;0,98;0,1\n",
+                                                       header, first, second)));
+    std::string text;
+    for (const GuessedColumn& c : file.columns)
+      text += (c.channel.empty() ? "-" : c.channel + c.unit) + " ";
+    return text;
+  };
+  const std::string acc = "acc_xg acc_yg acc_zg ";
+  const char *first = "22:12:00;21,5", *second = "22:14:00;21,6";
+  EXPECT_EQ(channels("clock;T [\u00B0C]", first, second), "time temperature\u00B0C " + acc);
+  EXPECT_EQ(channels("clock;t (K)", "22:12:00;294,1", "22:14:00;294,2"),
+            "time temperatureK " + acc);
+  EXPECT_EQ(channels("clock;T_degC", first, second), "time temperaturedegC " + acc);
+  // Without a unit "T" is what a clock leaves of it.
+  EXPECT_EQ(channels("T;Uhrzeit", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
+  EXPECT_EQ(channels("T;clock", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
+  EXPECT_EQ(channels("T;n", "1;3", "2;4"), "time? - " + acc);
+  EXPECT_EQ(channels("t [s];Pos [deg]", "1;1", "2;2"), "times - " + acc);
+  EXPECT_EQ(channels("Temp [s];n", "1;3", "2;4"), "times - " + acc);
+  EXPECT_EQ(channels("t [s];gx [m/s^2]", "1;3", "2;4"), "times - " + acc);
+  EXPECT_EQ(channels("t [s];gyro_x_c", "1;3", "2;4"), "times gyro_x? " + acc) << "a word";
+}
+
 TEST(OwnReadings, UnitsOfOtherLanguagesAndGalileosAreKnown) {
   const auto si = [](const char* text) { return parse_recording_unit(text).value().to_si; };
   EXPECT_DOUBLE_EQ(si("Gal"), 0.01);
