@@ -13,8 +13,8 @@
 #include "analysis/strapdown/case_study.hpp"
 #include "core/base/number_text.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
-#include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
+#include "core/recording/recording_files.hpp"
 #include "core/recording/rows/quality_card.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 #include "core/stats/median.hpp"
@@ -22,20 +22,19 @@
 namespace drift::cli {
 namespace {
 
-bool is_text_file(const std::string& path) {
-  const std::string end = lower_case(std::filesystem::path(path).extension().string());
-  return end == ".csv" || end == ".txt" || end == ".dat" || end == ".tsv";
-}
-
 /// What the columns hold and what they may be.
 void show_columns(const GuessedFile& file) {
   const std::size_t header = file.layout.header_line, units = file.layout.unit_line;
-  show("{} rows of {} columns; {}{}, cells are divided by {}\n", file.rows, file.columns.size(),
-       header > 0 ? fmt::format("the header is line {}", header) : "there is no header row",
-       units > 0 ? fmt::format(", units are line {}", units) : "",
-       file.layout.delimiter == '\t'  ? "tabs"
-       : file.layout.delimiter == ' ' ? "blanks"
-                                      : fmt::format("'{}'", file.layout.delimiter));
+  show("{} rows of {} columns", file.rows, file.columns.size());
+  if (!file.text)
+    show("\n");
+  else
+    show("; {}{}, cells are divided by {}\n",
+         header > 0 ? fmt::format("the header is line {}", header) : "there is no header row",
+         units > 0 ? fmt::format(", units are line {}", units) : "",
+         file.layout.delimiter == '\t'  ? "tabs"
+         : file.layout.delimiter == ' ' ? "blanks"
+                                        : fmt::format("'{}'", file.layout.delimiter));
   show("{:<22}{:>9}{:>7}{:>13}{:>13}  {}\n", "column", "numbers", "texts", "min", "max", "may be");
   for (const GuessedColumn& c : file.columns) {
     const std::string unit = c.unit.empty() ? "" : fmt::format(" [{}]", c.unit);
@@ -149,20 +148,8 @@ void show_commands(const std::string& path, RecordingKind kind) {
 ExitCode look_without_study(const std::string& path) {
   constexpr double gravity = 9.80665;  // [m/s^2]
   constexpr double static_min = 2.0;   // [s]
-  if (!is_text_file(path)) {           // these formats name their channels; the kind is what reads
-    RecordingKind kind = RecordingKind::platform;
-    Recording r;
-    try {
-      r = read_recording(path, kind, gravity);
-    } catch (const InputError&) {
-      kind = RecordingKind::strapdown;
-      r = read_recording(path, kind, gravity);
-    }
-    show_paste("", show_recording(r, kind, static_min, gravity), "");
-    show_commands(path, kind);
-    return ExitCode::ok;
-  }
-  if (!std::filesystem::is_regular_file(path)) read_recording(path, {}, gravity);  // says why not
+  if (!std::filesystem::is_regular_file(path) || !(is_text_file(path) || is_binary_file(path)))
+    read_recording(path, {}, gravity);  // says why not
   const GuessedFile file = guess_file(path);
   show("{}: ", path);
   show_columns(file);

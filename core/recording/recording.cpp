@@ -16,6 +16,7 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_check.hpp"
 #include "core/recording/recording_csv.hpp"
+#include "core/recording/recording_files.hpp"
 #include "core/recording/recording_hdf5.hpp"
 #include "core/recording/recording_mat.hpp"
 #include "core/recording/recording_output.hpp"
@@ -24,21 +25,6 @@
 
 namespace drift {
 namespace {
-
-/// The extension in lower case, with its dot.
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  });
-  return extension;
-}
-
-/// Text files of columns, whatever separates them.
-bool is_text_file(const std::string& extension) {
-  constexpr std::string_view all[] = {".csv", ".txt", ".dat", ".tsv"};
-  return std::ranges::find(all, extension) != std::end(all);
-}
 
 /// What was read from a file of named columns, as the format says.
 RawRecording with_format(RawRecording raw, const RecordingFormat& format, RecordingKind kind,
@@ -152,16 +138,12 @@ Recording read_recording(const std::string& path, const RecordingFormat& format,
   require_regular_file(path);
   Problems problems(path);
   RawRecording raw;
-  const std::string extension = extension_of(path);
-  if (is_text_file(extension)) {
+  if (is_text_file(path)) {
     raw = read_csv(path, format, kind, problems);
-  } else if (extension == ".h5" || extension == ".hdf5" || extension == ".mat") {
-    raw = read_isolated(path, problems, extension == ".mat" ? read_mat : read_hdf5);
-    // Their libraries call a disk that cannot be read a damaged file.
-    if (problems.count() > 0) sha256_hex_of_file(path);
-    raw = with_format(std::move(raw), format, kind, problems);
+  } else if (is_binary_file(path)) {
+    raw = with_format(read_binary(path, problems), format, kind, problems);
   } else {
-    throw_extension(path, extension);
+    throw_extension(path, extension_of(path));
   }
   Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
   problems.throw_if_any();

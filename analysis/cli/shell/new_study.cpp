@@ -15,7 +15,6 @@
 #include "core/base/results/folder.hpp"
 #include "core/base/words.hpp"
 #include "core/config/load.hpp"
-#include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -85,10 +84,7 @@ void require_kind(const GuessedFile& file, RecordingKind kind, const std::string
 }
 
 LookedAt look_at(const std::string& path, RecordingKind kind) {
-  constexpr double gravity = 9.80665;  // [m/s^2]
-  const std::string end = lower_case(std::filesystem::path(path).extension().string());
-  const bool names_its_channels = end == ".h5" || end == ".hdf5" || end == ".mat";
-  if (names_its_channels) return {.recording = read_recording(path, kind, gravity)};
+  constexpr double gravity = 9.80665;                                                // [m/s^2]
   if (!std::filesystem::is_regular_file(path)) read_recording(path, kind, gravity);  // says why not
   GuessedFile file = guess_file(path);
   require_kind(file, kind, path);
@@ -100,7 +96,7 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   const std::string said = blanks + (blanks.empty() || unplaced.empty() ? "" : " ") + unplaced;
   LookedAt seen{.told = without_blanks(file),
                 .named = file.format.positions.size(),
-                .above = preamble_site(path, file.layout)};
+                .above = file.text ? preamble_site(path, file.layout) : PreambleSite()};
   std::string refused;
   if (file.complete || file.rows == 0) try {
       seen.recording = read_recording(path, file.format, kind, gravity);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
@@ -19,6 +21,7 @@
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_files.hpp"
 #include "core/recording/recording_problems.hpp"
 #include "core/stats/median.hpp"
 
@@ -46,19 +49,11 @@ void look_at(GuessedColumn& column, std::string_view cell) {
   }
 }
 
-/// Goes through all rows; the lengths of the specific force in the units of the file come back.
-std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
-                                 GuessByValues& by_values, GuessPosition& by_numbers,
-                                 GuessGimbalUnit& by_up) {
-  std::vector<double> lengths;
-  std::array<std::size_t, 3> acc{};
-  bool triple = true;
-  for (int a = 0; a < 3; ++a) {
-    const auto it =
-        std::ranges::find(file.columns, fmt::format("acc_{}", "xyz"[a]), &GuessedColumn::channel);
-    triple = triple && it != file.columns.end();
-    acc[a] = static_cast<std::size_t>(it - file.columns.begin());
-  }
+using Cells = std::vector<std::string_view>;
+
+/// Shows every row of a text file that has a cell for each column.
+void each_row_of_text(const std::string& path, const GuessedFile& file,
+                      const std::function<void(const Cells&)>& look) {
   LineReader lines(path);
   CellSplitter splitter(file.layout.delimiter);
   std::string_view line;
@@ -72,16 +67,54 @@ std::vector<double> look_at_rows(const std::string& path, GuessedFile& file,
     if (std::ranges::equal(cells, file.columns, {}, {},
                            [](const GuessedColumn& c) { return std::string_view(c.header.whole); }))
       continue;  // the header again
+    look(cells);
+  }
+}
+
+/// Shows the rows of columns of numbers as a text file would have them; up to the end of the
+/// shortest column.
+void each_row_of_numbers(const std::vector<RawColumn>& columns,
+                         const std::function<void(const Cells&)>& look) {
+  if (columns.empty()) return;
+  const auto length = [](const RawColumn& c) { return c.values.size(); };
+  const std::size_t rows = length(*std::ranges::min_element(columns, {}, length));
+  std::vector<std::string> texts(columns.size());
+  Cells cells(columns.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      texts[i].clear();
+      if (const double x = columns[i].values[row]; !std::isnan(x))
+        fmt::format_to(std::back_inserter(texts[i]), "{}", x);
+      cells[i] = texts[i];
+    }
+    look(cells);
+  }
+}
+
+/// Goes through all rows; the lengths of the specific force in the units of the file come back.
+template <class EachRow>
+std::vector<double> look_at_rows(EachRow&& each_row, GuessedFile& file, GuessByValues& by_values,
+                                 GuessPosition& by_numbers, GuessGimbalUnit& by_up) {
+  std::vector<double> lengths;
+  std::array<std::size_t, 3> acc{};
+  bool triple = true;
+  for (int a = 0; a < 3; ++a) {
+    const auto it =
+        std::ranges::find(file.columns, fmt::format("acc_{}", "xyz"[a]), &GuessedColumn::channel);
+    triple = triple && it != file.columns.end();
+    acc[a] = static_cast<std::size_t>(it - file.columns.begin());
+  }
+  each_row([&](const Cells& cells) {
     ++file.rows;
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
     by_values.look_at_row(cells);
     by_numbers.look_at_row(cells);
     by_up.look_at_row(cells);
-    if (!triple) continue;
+    if (!triple) return;
     const auto f = [&](int a) { return parse_cell(cells[acc[a]], DecimalMark::automatic).value; };
     if (const double length = std::hypot(f(0), f(1), f(2)); std::isfinite(length))
       lengths.push_back(length);
-  }
+  });
   return lengths;
 }
 
@@ -94,43 +127,6 @@ std::string unit_of_gravity(std::vector<double> lengths) {
   for (const auto& [size, unit] : sizes)
     if (std::abs(usual / size - 1.0) < 0.05) return std::string(unit);
   return "?";
-}
-
-/// Times that are counted since 1970 tell their unit by their size; others do not.
-std::string unit_of_epoch(const GuessedColumn& c) {
-  constexpr std::pair<double, std::string_view> sizes[] = {
-      {1.0, "s"}, {1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}};
-  constexpr double early = 1e9, late = 4e9;  // [s] 2001 to 2096
-  for (const auto& [size, unit] : sizes)
-    if (c.numbers > 0 && c.low > early * size && c.high < late * size) return std::string(unit);
-  return "?";
-}
-
-/// A temperature that nothing survives, and that is one in kelvins.
-bool is_in_kelvins(const GuessedColumn& c, const Unit& stated) {
-  if (c.channel != "temperature" || stated.dim != "K"_unit.dim || celsius_offset(stated) != 0.0)
-    return false;
-  const double most = known_quantity(c.channel)->most, zero = celsius_offset("K"_unit);
-  return c.low > 0.0 && c.high > most && c.high + zero <= most;
-}
-
-std::string unit_of(const GuessedColumn& c, const std::string& gravity) {
-  const auto quantity = known_quantity(c.channel);
-  if (!quantity || !quantity->needs_unit) return {};
-  if (c.channel == "time" && c.numbers == 0 && c.texts > 0) return {};  // times of a clock
-  if (c.header.unit)
-    if (const auto unit = parse_recording_unit(*c.header.unit))
-      return is_in_kelvins(c, *unit) ? "K" : *c.header.unit;
-  if (const std::string ending = guessed_unit(c.header.name); !ending.empty())
-    if (const auto unit = parse_recording_unit(ending);
-        unit && (unit->dim == quantity->dim || c.channel.starts_with("acc_")))
-      return is_in_kelvins(c, *unit) ? "K" : ending;
-  if (c.channel.starts_with("acc_")) return gravity;
-  if (c.channel.starts_with("gyro_") && c.header.name.starts_with("field.")) return "rad/s";  // ROS
-  if (c.channel == "time") return unit_of_epoch(c);
-  constexpr double full_turn = 7.0;  // [rad] no angle is larger
-  if (c.channel.starts_with("gimbal_") && std::max(-c.low, c.high) > full_turn) return "deg";
-  return c.channel == "temperature" ? "" : "?";  // a covariate does without
 }
 
 /// The one column without a channel for which something holds, named; none or several: nothing is.
@@ -222,8 +218,18 @@ void name_columns_without_header(GuessedFile& file) {
 
 GuessedFile guess_file(const std::string& path) {
   GuessedFile file;
-  file.layout = find_layout(path, {}, RecordingKind::platform);
-  name_columns_without_header(file);
+  file.text = !is_binary_file(path);
+  std::vector<RawColumn> numbers;
+  if (file.text) {
+    file.layout = find_layout(path, {}, RecordingKind::platform);
+    name_columns_without_header(file);
+  } else {
+    Problems problems(path);
+    numbers = read_binary(path, problems).columns;
+    problems.throw_if_any();
+    for (const RawColumn& c : numbers)
+      file.layout.header.push_back({c.name, c.name, c.unit, false});
+  }
   for (const HeaderCell& cell : file.layout.header) {
     GuessedColumn column;
     column.header = cell;
@@ -233,14 +239,20 @@ GuessedFile guess_file(const std::string& path) {
   GuessByValues by_values(file);
   GuessPosition by_numbers(file);
   GuessGimbalUnit by_up(file);
-  std::string gravity = unit_of_gravity(look_at_rows(path, file, by_values, by_numbers, by_up));
+  const auto each_row = [&](const std::function<void(const Cells&)>& look) {
+    if (file.text)
+      each_row_of_text(path, file, look);
+    else
+      each_row_of_numbers(numbers, look);
+  };
+  std::string gravity = unit_of_gravity(look_at_rows(each_row, file, by_values, by_numbers, by_up));
   if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
   name_time_by_values(file);
   name_position_by_values(file);
   by_numbers.name_channel(file);
   const auto take_units_of = [&](std::string_view channels) {
     for (GuessedColumn& c : file.columns)
-      if (c.unit.empty() && c.channel.starts_with(channels)) c.unit = unit_of(c, gravity);
+      if (c.unit.empty() && c.channel.starts_with(channels)) c.unit = guessed_unit_of(c, gravity);
   };
   take_units_of("acc_");
   if (const std::string unit = by_up.unit(file); !unit.empty())

@@ -8,7 +8,7 @@
 
 namespace drift {
 
-/// One column of a text file, as it looks, and what it may be.
+/// One column of a file, as it looks, and what it may be.
 struct GuessedColumn {
   HeaderCell header;
   std::size_t numbers = 0, texts = 0;  ///< cells
@@ -25,9 +25,10 @@ struct GuessedColumn {
                                              ///< before it: that one and it; equal: none is
 };
 
-/// What a text file of columns may be as a recording.
+/// What a file of columns may be as a recording.
 struct GuessedFile {
   CsvLayout layout;
+  bool text = true;  ///< else columns of numbers under names: HDF5, MATLAB
   RecordingKind kind = RecordingKind::platform;
   std::vector<GuessedColumn> columns;
   std::size_t rows = 0;
@@ -36,7 +37,8 @@ struct GuessedFile {
   bool complete = false;   ///< that is so, and the columns that are needed are there
 };
 
-/// Guesses by headers, units and values. InputError (io).
+/// Guesses by headers, units and values. InputError (io; recording, where an HDF5 or MATLAB file
+/// cannot be read as columns of numbers).
 GuessedFile guess_file(const std::string& path);
 
 /// Takes the file for a recording of a kind, whatever it looked like: channels that such a

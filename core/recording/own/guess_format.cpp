@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/recording_unit.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
 
 namespace drift {
@@ -17,7 +19,44 @@ bool has(const GuessedFile& file, std::string_view start) {
   });
 }
 
+/// Times that are counted since 1970 tell their unit by their size; others do not.
+std::string unit_of_epoch(const GuessedColumn& c) {
+  constexpr std::pair<double, std::string_view> sizes[] = {
+      {1.0, "s"}, {1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}};
+  constexpr double early = 1e9, late = 4e9;  // [s] 2001 to 2096
+  for (const auto& [size, unit] : sizes)
+    if (c.numbers > 0 && c.low > early * size && c.high < late * size) return std::string(unit);
+  return "?";
+}
+
+/// A temperature that nothing survives, and that is one in kelvins.
+bool is_in_kelvins(const GuessedColumn& c, const Unit& stated) {
+  if (c.channel != "temperature" || stated.dim != "K"_unit.dim || celsius_offset(stated) != 0.0)
+    return false;
+  const double most = known_quantity(c.channel)->most, zero = celsius_offset("K"_unit);
+  return c.low > 0.0 && c.high > most && c.high + zero <= most;
+}
+
 }  // namespace
+
+std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) {
+  const auto quantity = known_quantity(c.channel);
+  if (!quantity || !quantity->needs_unit) return {};
+  if (c.channel == "time" && c.numbers == 0 && c.texts > 0) return {};  // times of a clock
+  if (c.header.unit)
+    if (const auto unit = parse_recording_unit(*c.header.unit))
+      return is_in_kelvins(c, *unit) ? "K" : *c.header.unit;
+  if (const std::string ending = guessed_unit(c.header.name); !ending.empty())
+    if (const auto unit = parse_recording_unit(ending);
+        unit && (unit->dim == quantity->dim || c.channel.starts_with("acc_")))
+      return is_in_kelvins(c, *unit) ? "K" : ending;
+  if (c.channel.starts_with("acc_")) return gravity;
+  if (c.channel.starts_with("gyro_") && c.header.name.starts_with("field.")) return "rad/s";  // ROS
+  if (c.channel == "time") return unit_of_epoch(c);
+  constexpr double full_turn = 7.0;  // [rad] no angle is larger
+  if (c.channel.starts_with("gimbal_") && std::max(-c.low, c.high) > full_turn) return "deg";
+  return c.channel == "temperature" ? "" : "?";  // a covariate does without
+}
 
 std::string own_name(const GuessedColumn& c) {
   const auto in_file = c.header.unit ? parse_recording_unit(*c.header.unit) : std::nullopt,
