@@ -18,6 +18,16 @@ void visit_options(Readout& o, Field&& field) {
         o.gimbal_noise);
 }
 
+/// The smallest noise that [readout] may declare under a key [internal unit].
+inline double least_noise(std::string_view key) {
+  double least = 0.0;
+  Readout any;
+  visit_options(any, [&](const config::Option& option, auto&) {
+    if (option.key == key) least = option.min * option.unit.to_si;
+  });
+  return least;
+}
+
 /// [site].
 template <class Field>
 void visit_options(Site& o, Field&& field) {

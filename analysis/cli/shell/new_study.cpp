@@ -15,6 +15,7 @@
 #include "core/base/results/folder.hpp"
 #include "core/base/words.hpp"
 #include "core/config/load.hpp"
+#include "core/plan/readout_config.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -172,11 +173,37 @@ std::string noise_line(const Recording& r, const std::vector<preparation::Restin
 /// A line of [readout] by the scatter of the rests, of two digits; empty where they show none.
 std::string scatter_line(const Recording& r, const std::vector<preparation::RestingRows>& rests,
                          std::string_view key, const ChannelTriple& channels, const Unit& unit) {
-  const double sigma = preparation::scatter_at_rest(r, rests, channels) / unit.to_si;
+  const double sigma = preparation::scatter_at_rest(r, rests, channels), least = least_noise(key);
   if (!(sigma > 0.0)) return "";
-  const std::string value = fmt::format("\"{} {}\"", number_text(sigma, 2), unit.symbol.view());
-  return fmt::format("{:<19} = {:<12} # 1 sigma of a sample, as it scatters in the rests\n", key,
-                     value);
+  const std::string value = fmt::format(
+      "\"{} {}\"", number_text(std::max(sigma, least) / unit.to_si, 2), unit.symbol.view());
+  return fmt::format("{:<19} = {:<12} # 1 sigma of a sample, {}\n", key, value,
+                     sigma < least
+                         ? "the least that may stand here: it scatters by less in the rests"
+                         : "as it scatters in the rests");
+}
+
+/// Reads the study as `check` will. What is wrong with one that was made of a recording is said of
+/// that: the study is not written.
+void require_readable(const std::string& study, const NewArguments& a) {
+  try {
+    mc::read_study_tree(config::parse_document(study, a.output), a.output);
+  } catch (const InputError& e) {
+    if (a.recording.empty()) throw;
+    std::vector<std::string> wrong;
+    for (const std::string& message : e.messages()) {  // "lab.toml:26:23: what is wrong"
+      const bool placed = message.starts_with(a.output + ":");
+      const auto at = placed ? message.find(": ", a.output.size()) : std::string::npos;
+      wrong.push_back(at == std::string::npos ? message : message.substr(at + 2));
+    }
+    throw InputError(
+        ExitCode::recording,
+        fmt::format("{}: the study that is made of it cannot be read, and is not written: {} "
+                    "(expected a recording that stands in each of its positions). Check with "
+                    "`driftscope look '{}'` what its columns are taken for: rename those that are "
+                    "something else, and correct numbers of positions that go on while it turns",
+                    a.recording, fmt::join(wrong, ". "), a.recording));
+  }
 }
 
 ExitCode make_study(const NewArguments& a) {
@@ -207,7 +234,7 @@ ExitCode make_study(const NewArguments& a) {
   const std::string& blanks = seen.blanks;
   const std::string text = study_template(kind, plan, seen.mapping, site),
                     told = blanks.empty() ? text : study_template(kind, plan, seen.told, site);
-  mc::read_study_tree(config::parse_document(told, a.output), a.output);  // as check does
+  require_readable(told, a);
   write_text_atomically(a.output, text);
   show("{} is written; what needs your numbers has a comment. Then:\n  driftscope check {}\n",
        a.output, a.output);

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/noise/noise_units.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/plan/readout_config.hpp"
 
 namespace drift::report {
 namespace {
@@ -56,9 +58,10 @@ std::string noise_keys(const NoiseCard& card) {
           over_axes(card, Sensor::accelerometer,
                     [&](const ChannelNoise& c) { return of_one_sample(c, card.interval); });
       sigma > 0.0)
-    out += fmt::format("[readout]\naccelerometer_noise = \"{} ug\"  # of one sample of {} s{}\n",
-                       number_text(sigma / unit::ug.to_si), number_text(card.interval, 4),
-                       unsure(Sensor::accelerometer));
+    out += fmt::format(
+        "[readout]\naccelerometer_noise = \"{} ug\"  # of one sample of {} s{}\n",
+        number_text(std::max(sigma, least_noise("accelerometer_noise")) / unit::ug.to_si),
+        number_text(card.interval, 4), unsure(Sensor::accelerometer));
   const auto units = noise_units(Sensor::gyro, 1.0);
   constexpr std::pair<AllanNoise, std::string_view> keys[] = {
       {AllanNoise::white, "angle_random_walk"}, {AllanNoise::rate_walk, "drift_random_walk"}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "tests/support/log_edits.hpp"
@@ -98,6 +99,41 @@ TEST(NewStudy, WhatNobodyHasCheckedIsNoFactOfWhatIsConverted) {
       driftscope("identify " + file + " " + own + " --set 'site.gravity=\"9.8 m/s^2\"'");
   EXPECT_EQ(direct.code, 0) << direct.err;
   EXPECT_FALSE(has(direct.err, "K1 is off by")) << direct.err;
+}
+
+TEST(NewStudy, ALogOfWhichNoStudyCanBeMadeIsWhatIsWrong) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),
+                    file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  // Turns of 90 deg and more within a position are no noise of resolvers.
+  folder.write("own.csv", with_column(text_of(own), "position", [](const std::string& cell) {
+                 return std::string(std::stoi(cell) <= 3 ? "1" : "2");
+               }));
+  const Answer a = driftscope("new diagnose " + own + " -o " + file);
+  EXPECT_EQ(a.code, 4) << a.err;
+  EXPECT_TRUE(has(a.err, own + ": the study that is made of it cannot be read")) << a.err;
+  EXPECT_TRUE(has(a.err, "'readout.gimbal_noise'")) << a.err;
+  EXPECT_FALSE(has(a.err, file)) << a.err;
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(NewStudy, NoiseBelowTheLeastOfAStudyIsTheLeast) {
+  const ScratchFolder folder;
+  for (const std::string dwell : {"10 min", "20 min"}) {  // by their scatter; by a noise card
+    const std::string made = folder.write("made.toml", replaced(short_study, "10 min", dwell)),
+                      own = folder.file(dwell.substr(0, 2) + ".csv"),
+                      file = folder.file(dwell.substr(0, 2) + ".toml");
+    ASSERT_EQ(driftscope("simulate " + made + " -o " + own +
+                         " --set 'readout.accelerometer_noise=\"0.001 ug\"' --set "
+                         "'readout.gimbal_noise=\"0.001 arcsec\"'")
+                  .code,
+              0);
+    const Answer a = driftscope("new diagnose " + own + " -o " + file);
+    ASSERT_EQ(a.code, 0) << a.err;
+    EXPECT_TRUE(has(text_of(file), "accelerometer_noise = \"0.001 ug\"")) << text_of(file);
+    EXPECT_TRUE(has(text_of(file), "gimbal_noise        = \"0.001 arcsec\"")) << text_of(file);
+  }
 }
 
 }  // namespace
