@@ -177,7 +177,10 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
   for (const auto& c : r.channels) {
     const bool command = c.name.starts_with("cmd_") && kind == RecordingKind::platform;
     const auto quantity = known_quantity(c.name);
-    const double most = quantity ? quantity->most : std::numeric_limits<double>::max();
+    // In a unit that is not known, or that measures something else, no number is beyond reason.
+    const double most = quantity && quantity->dim == c.unit.dim
+                            ? quantity->most
+                            : std::numeric_limits<double>::max();
     const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       const double x = c.values[i];

@@ -56,6 +56,20 @@ std::optional<double> take_time_of_day(std::string_view& text) {
   return 3600.0 * hour + 60.0 * minute + second;
 }
 
+/// "130510" or "130510.25" from the front of a text, as ISO 8601 has it behind a date.
+std::optional<double> take_basic_time(std::string_view& text) {
+  constexpr std::size_t digits = 6;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+  std::string_view rest = text;
+  double number = 0.0;
+  if (end != digits || !take_number(rest, number)) return std::nullopt;
+  const double hour = std::floor(number / 1e4), minute = std::floor(number / 1e2) - 1e2 * hour,
+               second = number - 1e4 * hour - 1e2 * minute;
+  if (hour > 23.0 || minute > 59.0 || !(second < 61.0)) return std::nullopt;
+  text = rest;
+  return 3600.0 * hour + 60.0 * minute + second;
+}
+
 /// "Mar", "MAR." or "March" from the front of a text, in English or German; 0 if it is none.
 int take_month_name(std::string_view& text) {
   constexpr std::array<std::array<std::string_view, 2>, 12> names{{{"jan", "jan"},
@@ -103,11 +117,22 @@ std::optional<double> take_rest_of_named_date(std::string_view& text, int first)
   return seconds_of(date);
 }
 
-/// "2026-03-01", "01.03.2026", "01/03/2026", "03-01-2026" or "01-Mar-2026" from the front of a
-/// text, as seconds since 1970.
+/// "20260301" of the centuries in which anything is logged; empty if the number is none.
+std::optional<double> basic_date(int number) {
+  const std::chrono::year_month_day date{
+      std::chrono::year(number / 10000),
+      std::chrono::month(static_cast<unsigned>(number / 100 % 100)),
+      std::chrono::day(static_cast<unsigned>(number % 100))};
+  if (number < 19000101 || number > 21991231 || !date.ok()) return std::nullopt;
+  return seconds_of(date);
+}
+
+/// "2026-03-01", "20260301", "01.03.2026", "01/03/2026", "03-01-2026" or "01-Mar-2026" from the
+/// front of a text, as seconds since 1970.
 std::optional<double> take_date(std::string_view& text, StrokeDates order) {
   int first = 0, month = 0, last = 0;
   if (!take_number(text, first)) return std::nullopt;
+  if (const auto basic = basic_date(first)) return basic;
   const char mark = text.empty() ? '\0' : text.front();
   if (mark != '\0' && std::string_view("-./ ").find(mark) != std::string_view::npos)
     if (const auto named = take_rest_of_named_date(text, first)) return named;
@@ -147,13 +172,19 @@ std::optional<double> parse_clock(std::string_view whole, StrokeDates order) {
   std::string text(trimmed(whole));
   if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
   std::string_view rest = text;
-  if (const auto of_day = take_time_of_day(rest); of_day && rest.empty()) return of_day;
+  if (const auto of_day = take_time_of_day(rest)) {
+    if (rest.empty()) return of_day;
+    const auto whole_time = std::string_view(text).substr(0, text.size() - rest.size());
+    const auto zone = zone_of(trimmed(rest));  // behind seconds: "08:30-09:00" is no time
+    if (zone && std::ranges::count(whole_time, ':') == 2) return *of_day - *zone;
+  }
   rest = text;
   const auto date = take_date(rest, order);
   if (!date || rest.empty()) return std::nullopt;
   if (rest.front() != 'T' && rest.front() != ' ' && rest.front() != '_') return std::nullopt;
   rest.remove_prefix(1);
-  const auto of_day = take_time_of_day(rest);
+  const auto basic = take_basic_time(rest);
+  const auto of_day = basic ? basic : take_time_of_day(rest);
   const auto zone = of_day ? zone_of(trimmed(rest)) : std::nullopt;
   if (!zone) return std::nullopt;
   return *date + *of_day - *zone;

@@ -10,9 +10,9 @@ namespace drift {
 /// What comes first in a date such as 03/04/2026 or 03-04-2026.
 enum class StrokeDates { day_first, month_first };
 
-/// Seconds of a time of day "13:05:10.25", "01:05:10.25 PM", "13:05" or "13.05.10", or of a date
-/// and time "2026-03-01T13:05:10.25Z", "01.03.2026 13:05:10,25", "01/03/2026 13:05:10" or
-/// "01-Mar-2026 13:05:10" since 1970. Empty if the text is none.
+/// Seconds of a time of day "13:05:10.25", "01:05:10.25 PM", "13:05", "13.05.10" or "13:05:10Z", or
+/// of a date and time "2026-03-01T13:05:10.25Z", "01.03.2026 13:05:10,25", "01/03/2026 13:05:10",
+/// "01-Mar-2026 13:05:10" or "20260301T130510+02" since 1970. Empty if the text is none.
 std::optional<double> parse_clock(std::string_view text,
                                   StrokeDates order = StrokeDates::day_first);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -37,6 +38,18 @@ bool is_in_kelvins(const GuessedColumn& c, const Unit& stated) {
   return c.low > 0.0 && c.high > most && c.high + zero <= most;
 }
 
+/// A temperature that is none in kelvins, as nothing is so cold, and one in degC.
+bool is_in_celsius(const GuessedColumn& c, const Unit& stated) {
+  if (c.channel != "temperature" || !same_unit(stated, "K"_unit)) return false;
+  const double most = known_quantity(c.channel)->most;
+  return c.low + celsius_offset(stated) < -most && c.low >= -most && c.high <= most;
+}
+
+/// The unit that a temperature is in by its values, whatever is written; else what is written.
+std::string by_size(const GuessedColumn& c, const Unit& stated, const std::string& written) {
+  return is_in_kelvins(c, stated) ? "K" : is_in_celsius(c, stated) ? "degC" : written;
+}
+
 }  // namespace
 
 std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) {
@@ -45,11 +58,10 @@ std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) 
   if (c.channel == "time" && c.numbers == 0 && c.texts > 0) return {};  // times of a clock
   if (c.header.unit)
     if (const auto unit = parse_recording_unit(*c.header.unit))
-      return is_in_kelvins(c, *unit) ? "K" : *c.header.unit;
+      return by_size(c, *unit, *c.header.unit);
   if (const std::string ending = guessed_unit(c.header.name); !ending.empty())
-    if (const auto unit = parse_recording_unit(ending);
-        unit && (unit->dim == quantity->dim || c.channel.starts_with("acc_")))
-      return is_in_kelvins(c, *unit) ? "K" : ending;
+    if (const auto unit = parse_recording_unit(ending); unit && measures(*unit, c.channel))
+      return by_size(c, *unit, ending);
   if (c.channel.starts_with("acc_")) return gravity;
   if (c.channel.starts_with("gyro_") && c.header.name.starts_with("field.")) return "rad/s";  // ROS
   if (c.channel == "time") return unit_of_epoch(c);

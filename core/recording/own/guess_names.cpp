@@ -14,18 +14,44 @@ namespace {
 using Words = std::span<const std::string_view>;
 
 constexpr std::pair<std::string_view, std::string_view> unit_endings[] = {
-    {"ms", "ms"},         {"us", "us"},       {"s", "s"},        {"sec", "s"},
-    {"min", "min"},       {"h", "h"},         {"deg", "deg"},    {"rad", "rad"},
-    {"arcsec", "arcsec"}, {"g", "g"},         {"mg", "mg"},      {"ug", "ug"},
-    {"mss", "m/s^2"},     {"ms2", "m/s^2"},   {"mps2", "m/s^2"}, {"dps", "deg/s"},
-    {"degs", "deg/s"},    {"degps", "deg/s"}, {"rads", "rad/s"}, {"radps", "rad/s"},
-    {"degh", "deg/h"},    {"dph", "deg/h"},   {"degc", "degC"},  {"c", "degC"}};
+    {"ms", "ms"},
+    {"us", "us"},
+    {"s", "s"},
+    {"sec", "s"},
+    {"min", "min"},
+    {"h", "h"},
+    {"deg", "deg"},
+    {"rad", "rad"},
+    {"arcsec", "arcsec"},
+    {"g", "g"},
+    {"mg", "mg"},
+    {"ug", "ug"},
+    {"mss", "m/s^2"},
+    {"ms2", "m/s^2"},
+    {"mps2", "m/s^2"},
+    {"dps", "deg/s"},
+    {"degs", "deg/s"},
+    {"degps", "deg/s"},
+    {"rads", "rad/s"},
+    {"radps", "rad/s"},
+    {"degh", "deg/h"},
+    {"dph", "deg/h"},
+    {"degc", "degC"},
+    {"c", "degC"},
+    {"k", "K"},
+    {"degk", "K"},
+    {"kelvin", "K"},
+    {"degf", "degF"},
+    // Of a size that no unit says.
+    {"counts", "counts"},
+    {"lsb", "counts"}};
 
 constexpr std::string_view time_words[] = {
-    "time",        "t",       "zeit",       "timestamp", "elapsed",    "elapsedtime",
-    "zeitstempel", "sekunde", "sekunden",   "uhrzeit",   "sampletime", "seconds",
-    "timestartup", "timegps", "horodatage", "temps",     "hora",       "tiempo",
-    "heure",       "ora",     "tempo",      "tijd"};
+    "time",       "t",        "zeit",      "timestamp",  "elapsed",  "elapsedtime",   "zeitstempel",
+    "sekunde",    "sekunden", "uhrzeit",   "sampletime", "seconds",  "timestartup",   "timegps",
+    "horodatage", "temps",    "hora",      "tiempo",     "heure",    "ora",           "tempo",
+    "tijd",       "epoch",    "epochtime", "unix",       "unixtime", "unixtimestamp", "utc",
+    "utctime",    "timeutc",  "datetime"};
 constexpr std::string_view position_words[] = {"position",   "pos",      "lage",
                                                "stellung",   "lagenr",   "posnr",
                                                "positionno", "posicion", "posizione"};

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/like_temperature.hpp"
@@ -59,7 +60,8 @@ GuessPosition::GuessPosition(const GuessedFile& file) {
 /// Begins a stretch behind the last one; false if the label cannot be that of a position.
 bool GuessPosition::begin(Candidate& candidate, std::string_view label) {
   const double number = cell_number(label);
-  if (!(number == std::round(number)) || !candidate.labels.insert(number).second) return false;
+  if (is_date(label) || !(number == std::round(number)) || !candidate.labels.insert(number).second)
+    return false;
   auto& all = candidate.stretches;
   if (!all.empty() && all.back().rows < PositionLimits::fewest_rows) return false;
   all.push_back({std::string(label), 0, {}, {}});

@@ -28,7 +28,8 @@ std::string duration_text(double seconds) {
 /// The unit that a column has, by its header or by the ending of its name; empty if that is none.
 std::string unit_in_file(const GuessedColumn& c) {
   if (c.header.unit) return parse_recording_unit(*c.header.unit) ? *c.header.unit : "";
-  return guessed_unit(c.header.name);
+  const std::string ending = guessed_unit(c.header.name);
+  return parse_recording_unit(ending) ? ending : "";
 }
 
 /// What is to be checked of columns whose names said nothing, as a comment.

@@ -66,16 +66,17 @@ std::optional<Unit> stated_unit(const GuessedColumn& c) {
   return parse_recording_unit(guessed_unit(c.header.name));
 }
 
-bool may_measure(const HeaderCell& header, std::string_view channel) {
+bool measures(const Unit& unit, std::string_view channel) {
   const auto quantity = known_quantity(channel);
+  if (!quantity || unit.dim == quantity->dim) return true;
+  if (channel.starts_with("gyro_")) return unit.dim == "rad"_unit.dim;
+  return channel.starts_with("acc_") &&
+         (unit.dim == "m/s^2"_unit.dim || unit.dim == "m/s"_unit.dim || unit.dim == "g*s"_unit.dim);
+}
+
+bool may_measure(const HeaderCell& header, std::string_view channel) {
   const auto unit = parse_recording_unit(header.unit ? *header.unit : unit_of_symbol(header.name));
-  if (!quantity || !unit || unit->dim == quantity->dim) return true;
-  // In m/s^2 the gravity of the place makes g of it; gained over each sample, angles and velocities
-  // are what rates and accelerations are with kind = "increments".
-  const bool acceleration = channel.starts_with("acc_"), rate = channel.starts_with("gyro_");
-  return (acceleration && (unit->dim == "m/s^2"_unit.dim || unit->dim == "m/s"_unit.dim ||
-                           unit->dim == "g*s"_unit.dim)) ||
-         (rate && unit->dim == "rad"_unit.dim);
+  return !unit || measures(*unit, channel);
 }
 
 GuessByValues::GuessByValues(const GuessedFile& file) {

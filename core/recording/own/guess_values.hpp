@@ -32,6 +32,11 @@ struct GuessLimits {
 /// The unit that the file gives a column, in the header or by the ending of its name, if it is one.
 std::optional<Unit> stated_unit(const GuessedColumn& column);
 
+/// Whether numbers in a unit may be those of a channel: accelerations in m/s^2 are divided by
+/// gravity, and gained over each sample (kind = "increments") they are velocities, rates are
+/// angles.
+bool measures(const Unit& unit, std::string_view channel);
+
 /// Whether a column may be a channel by the unit that its header states: one of another dimension
 /// is not. Without one, or with one that is not known, it may.
 bool may_measure(const HeaderCell& header, std::string_view channel);

@@ -39,6 +39,14 @@ TEST(Clock, ClocksAreSecondsAndNothingElseIs) {
   EXPECT_EQ(parse_clock("1970-01-02 12:00:01 am"), 86401.0);
   EXPECT_EQ(parse_clock("24:00:00"), 86400.0);
   EXPECT_EQ(parse_clock("1970-01-01T24:00:00Z"), parse_clock("1970-01-02T00:00:00Z"));
+  EXPECT_EQ(parse_clock("01:05:10Z"), 3910.0);
+  EXPECT_EQ(parse_clock("01:05:10+01:00"), 310.0);
+  EXPECT_EQ(parse_clock("19700102T000001Z"), 86401.0);
+  EXPECT_EQ(parse_clock("19700102 010001.5+01"), 86401.5);
+  EXPECT_EQ(parse_clock("1970-01-02T000001"), 86401.0);
+  for (const char* none : {"08:30-09:00", "19700102", "19701302T000001", "19700102T240000",
+                           "19700102T0001", "12345678 000001"})
+    EXPECT_FALSE(parse_clock(none)) << none;
   for (const char* text :
        {"2026-02-30T00:00:00", "25:00:00", "24:00:01", "24:01:00", "13:", "13:60",
         "31/31/2026 00:00:00", "", "2026-03-01", "12:00:00x", "13.05", "1.234.567", "13.05:10",

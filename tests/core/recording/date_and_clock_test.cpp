@@ -75,6 +75,8 @@ std::string refused(const std::string& date, const std::string& time) {
 
 TEST(DateAndClock, WhatIsNeitherIsRefusedWithItsCell) {
   EXPECT_EQ(refused("14.03.2026", "23:59:58"), "");
+  EXPECT_EQ(refused("20260314", "235958"), "");
+  EXPECT_EQ(refused("2026-03-14", "23:59:58Z"), "");
   EXPECT_NE(refused("14.13.2026", "23:59:58").find("2:Datum: found '14.13.2026'"),
             std::string::npos)
       << refused("14.13.2026", "23:59:58");

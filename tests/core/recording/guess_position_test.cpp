@@ -49,11 +49,12 @@ TEST(GuessPosition, NumbersThatChangeWithTheAttitudeAreThoseOfPositions) {
 }
 
 TEST(GuessPosition, OtherWholeNumbersAreNot) {
-  const std::array<std::pair<const char*, std::function<std::string(int)>>, 10> others{
+  const std::array<std::pair<const char*, std::function<std::string(int)>>, 11> others{
       {{"Zaehler", [](int row) { return std::to_string(row); }},
        {"Stufe",
         [](int row) { return std::to_string(row / 40); }},  // two changes, every second turn
        {"Stunde", [](int row) { return std::to_string(7 + (row + 9) / 15); }},
+       {"Datum", [](int row) { return std::to_string(20260314 + row / 20); }},
        {"Temp 2", [](int row) { return std::to_string(row / 20); }},
        {"Strom [A]", [](int row) { return std::to_string(row / 20); }},
        {"Strom_deg", [](int row) { return std::to_string(row / 20); }},

@@ -73,10 +73,20 @@ TEST(OwnReadings, UnitsOfTheHeadingDecideWhatAColumnIsNot) {
   EXPECT_EQ(channels("Temp [s];n", "1;3", "2;4"), "times - " + acc);
   EXPECT_EQ(channels("t [s];gx [m/s^2]", "1;3", "2;4"), "times - " + acc);
   EXPECT_EQ(channels("t [s];gyro_x_c", "1;3", "2;4"), "times gyro_x? " + acc) << "a word";
+  EXPECT_EQ(channels("t [s];gx_counts", "1;3", "2;4"), "times gyro_x? " + acc);
+  EXPECT_EQ(channels("t [s];T_K", "1;294,1", "2;294,2"), "times temperatureK " + acc);
+  EXPECT_EQ(channels("t [s];Temp [K]", "1;21,1", "2;21,2"), "times temperaturedegC " + acc)
+      << "nothing is at 21 K";
+  EXPECT_EQ(channels("unix_ms;n", "1773532680000;1", "1773532681000;2"), "timems - " + acc);
+  EXPECT_EQ(channels("epoch;n", "1773532680;1", "1773532681;2"), "times - " + acc);
+  const GuessedFile words = guess_file(
+      folder.write("c.csv", "t [s];acc_x_c;acc_y_c;acc_z_c\n1;0,98;0,1;0,17\n2;0,17;0,98;0,1\n"));
+  EXPECT_EQ(words.columns[1].unit, "g") << "corrected, not in degrees Celsius";
 }
 
 TEST(OwnReadings, UnitsOfOtherLanguagesAndGalileosAreKnown) {
   const auto si = [](const char* text) { return parse_recording_unit(text).value().to_si; };
+  EXPECT_TRUE(same_unit(parse_recording_unit("\u00B0K").value(), "K"_unit));
   EXPECT_DOUBLE_EQ(si("Gal"), 0.01);
   EXPECT_DOUBLE_EQ(si("mGal"), 1e-5);
   EXPECT_DOUBLE_EQ(si("gradi"), detail::deg);
