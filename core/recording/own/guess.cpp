@@ -43,8 +43,11 @@ void look_at(GuessedColumn& column, std::string_view cell) {
     ++column.numbers;
   } else if (parsed.kind != ParsedCell::Kind::number) {
     ++column.texts;
-    if (column.words.size() < most_words &&
-        std::ranges::find(column.words, cell) == column.words.end())
+    if (column.last_text == cell) return;
+    column.last_text = cell;
+    if (std::ranges::find(column.words, cell) != column.words.end())
+      column.again = true;
+    else if (column.words.size() < most_words)
       column.words.emplace_back(cell);
   }
 }
@@ -176,13 +179,14 @@ void name_channels(GuessedFile& file) {
   if (has("gyro_") && !has("gimbal_") && !has("position")) file.kind = RecordingKind::strapdown;
 }
 
-/// The one column of a few texts may name the positions; dates and times of a clock do not.
+/// The one column of a few texts, each in one stretch of rows, may name the positions; dates and
+/// times of a clock do not, nor remarks.
 void name_position_by_values(GuessedFile& file) {
   if (file.kind != RecordingKind::platform ||
       std::ranges::find(file.columns, "position", &GuessedColumn::channel) != file.columns.end())
     return;
-  const auto few_texts = [](const GuessedColumn& c) {
-    return c.channel.empty() && c.numbers == 0 && c.words.size() > 1 &&
+  const auto few_texts = [&](const GuessedColumn& c) {
+    return c.channel.empty() && c.texts == file.rows && !c.again && c.words.size() > 1 &&
            c.words.size() < most_words && !holds_dates(c) && !holds_times(c);
   };
   if (std::ranges::count_if(file.columns, few_texts) != 1) return;

@@ -14,6 +14,8 @@ struct GuessedColumn {
   std::size_t numbers = 0, texts = 0;  ///< cells
   double low = 0.0, high = 0.0;        ///< of the numbers
   std::vector<std::string> words;      ///< the first different texts, in order
+  std::string last_text;
+  bool again = false;  ///< a text stands again after another one
   /// Of positions: their numbers in order where one is left out; a plan that is made of the
   /// recording has none of that number.
   std::vector<std::string> numbered;

@@ -103,6 +103,36 @@ TEST(OwnReadings, AMinusOfAWordProcessorIsAMinus) {
   EXPECT_EQ(parse_cell("\u2212", DecimalMark::automatic).kind, ParsedCell::Kind::text);
 }
 
+TEST(OwnReadings, RemarksAreNoPositions) {
+  const Folder folder;
+  const auto position = [&](const std::vector<std::string>& texts) {
+    std::string rows;
+    for (std::size_t i = 0; i < texts.size(); ++i)
+      rows += fmt::format("{},{},0,0,1\n", i + 1, texts[i]);
+    const GuessedFile file =
+        guess_file(folder.write("own.csv", "t [s],Was,ax [g],ay [g],az [g]\n" + rows));
+    return file.columns[1].channel;
+  };
+  EXPECT_EQ(position({"up", "up", "down", "down"}), "position");
+  EXPECT_EQ(position({"ok", "Start", "ok", "ok"}), "") << "a position is held once";
+  EXPECT_EQ(position({"Start", "", "", "Ende"}), "") << "and has a name in every row";
+}
+
+TEST(OwnReadings, AUnitThatIsNotKnownIsSaidOnce) {
+  const Folder folder;
+  try {  // a gyro's counts are beyond reason as rad/s
+    read_recording(
+        folder.write("imu.csv",
+                     "time [s],gyro_x [LSB],gyro_y [LSB],gyro_z [LSB],acc_x [g],acc_y [g],acc_z "
+                     "[g]\n1,6550,2,3,0,0,1\n2,-6550,2,3,0,0,1\n3,1,2,3,0,0,1\n"),
+        RecordingKind::strapdown, gravity);
+    FAIL() << "read";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.messages().size(), 1u) << e.what();
+    EXPECT_NE(std::string(e.what()).find("unknown unit 'LSB'"), std::string::npos) << e.what();
+  }
+}
+
 TEST(OwnReadings, NoReadingIsAHundredTimesGravity) {
   const Folder folder;
   try {  // -999 m/s^2 stands for a missing one
