@@ -1,11 +1,13 @@
 #include "core/recording/own/csv_layout.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
 #include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -119,6 +121,48 @@ bool is_row_of_units(const std::vector<std::string_view>& cells) {
   return units > 0 && 2 * units >= filled;
 }
 
+constexpr std::size_t most_header_lines = 4;
+
+/// How many lines below the header are units or words, and not yet rows; 0 if no row of numbers
+/// follows them.
+std::size_t text_lines_below(const std::vector<Line>& lines, std::size_t header, char delimiter) {
+  CellSplitter splitter(delimiter);
+  const auto is_text = [&](const Line& line) {
+    const auto& cells = splitter.split(line.text);
+    return is_row_of_units(cells) || std::ranges::all_of(cells, [](std::string_view cell) {
+             return cell.empty() ||
+                    (parse_cell(cell, DecimalMark::automatic).kind == ParsedCell::Kind::text &&
+                     !parse_clock(cell) && !is_date(cell));
+           });
+  };
+  std::size_t n = 0;
+  while (n + 1 < most_header_lines && header + n + 1 < lines.size() &&
+         is_text(lines[header + n + 1]))
+    ++n;
+  const bool rows_follow =
+      header + n + 1 < lines.size() && is_row_of_numbers(lines[header + n + 1].text, delimiter);
+  return rows_follow ? n : 0;
+}
+
+/// Index of the line above the first row of numbers that has most names of channels, two and more;
+/// empty if none has.
+std::optional<std::size_t> line_of_names(const std::vector<Line>& lines, std::size_t first_row,
+                                         char delimiter, std::size_t width) {
+  std::optional<std::size_t> best;
+  std::ptrdiff_t most = 1;
+  for (std::size_t i = first_row; i > 0 && i + most_header_lines > first_row; --i) {
+    const auto cells = header_cells(lines[i - 1].text, delimiter);
+    if (cells.size() != width) break;
+    const auto names = std::ranges::count_if(
+        cells, [](const HeaderCell& c) { return !guessed_channel(c.name).empty(); });
+    if (names > most) {
+      most = names;
+      best = i - 1;
+    }
+  }
+  return best;
+}
+
 /// Index of the header among the lines.
 std::size_t find_header(const std::vector<Line>& lines, const RecordingFormat& format,
                         RecordingKind kind) {
@@ -134,6 +178,7 @@ std::size_t find_header(const std::vector<Line>& lines, const RecordingFormat& f
     if (!is_row_of_numbers(lines[i].text, delimiter)) continue;
     CellSplitter splitter(delimiter);
     const std::size_t width = splitter.split(lines[i].text).size();
+    if (const auto named = line_of_names(lines, i, delimiter, width)) return *named;
     std::size_t header = i == 0 ? 0 : i - 1;
     if (header > 0 && is_row_of_units(splitter.split(lines[header].text)) &&
         splitter.split(lines[header - 1].text).size() == width)
@@ -160,14 +205,19 @@ CsvLayout find_layout(const std::string& path, const RecordingFormat& format, Re
   layout.above = at;
   layout.delimiter = delimiter_of(lines[at].text, format);
   layout.header = header_cells(lines[at].text, layout.delimiter);
-  if (at + 1 == lines.size()) return layout;
+  const std::size_t below = text_lines_below(lines, at, layout.delimiter);
+  if (below > 0) layout.last_text = lines[at + below].number;
   CellSplitter splitter(layout.delimiter);
-  const auto& units = splitter.split(lines[at + 1].text);
-  if (units.size() > layout.header.size() || !is_row_of_units(units)) return layout;
-  layout.unit_line = lines[at + 1].number;
-  for (std::size_t i = 0; i < units.size(); ++i)
-    if (const auto unit = without_brackets(units[i]); !unit.empty() && unit != "-")
-      if (!layout.header[i].unit) layout.header[i].unit = unit;
+  for (std::size_t k = at + 1; k < lines.size() && k <= at + std::max<std::size_t>(below, 1); ++k) {
+    const auto& units = splitter.split(lines[k].text);
+    if (units.size() > layout.header.size() || !is_row_of_units(units)) continue;
+    layout.unit_line = lines[k].number;
+    layout.last_text = std::max(layout.last_text, layout.unit_line);
+    for (std::size_t i = 0; i < units.size(); ++i)
+      if (const auto unit = without_brackets(units[i]); !unit.empty() && unit != "-")
+        if (!layout.header[i].unit) layout.header[i].unit = unit;
+    break;
+  }
   return layout;
 }
 

@@ -32,6 +32,9 @@ CsvRows::CsvRows(const std::string& path, CsvLayout layout, const RecordingForma
     note(fmt::format("the header is line {}: {} lines above it are passed over",
                      layout_.header_line, layout_.above));
   if (layout_.unit_line > 0) note(fmt::format("line {} is read as the units", layout_.unit_line));
+  if (layout_.last_text > layout_.unit_line || layout_.unit_line > layout_.header_line + 1)
+    note(fmt::format("rows begin below line {}: other text below the header is passed over",
+                     layout_.last_text));
   const std::size_t before = problems.count();
   if (is_header_sound()) uses_ = uses_of_columns(layout_.header, format, kind, problems, raw_);
   raw_.settled = problems.count() == before;
@@ -120,7 +123,8 @@ RawRecording CsvRows::read() {
       if (uses_.empty()) return {};
       continue;
     }
-    if (trimmed(line).empty() || lines_.number() == layout_.unit_line) continue;
+    if (trimmed(line).empty()) continue;
+    if (line.front() != '#' && lines_.number() <= layout_.last_text) continue;
     if (line.front() == '#')
       read_comment(line.substr(1));
     else if (lines_.number() > layout_.header_line)

@@ -62,7 +62,7 @@ void each_row_of_text(const std::string& path, const GuessedFile& file,
   std::string_view line;
   std::string decoded;
   while (lines.next(line)) {
-    if (lines.number() <= std::max(file.layout.header_line, file.layout.unit_line)) continue;
+    if (lines.number() <= std::max(file.layout.header_line, file.layout.last_text)) continue;
     if (trimmed(line).empty() || line.front() == '#') continue;
     if (!valid_utf8(line)) line = decoded = utf8_from_windows_1252(line);
     const auto& cells = splitter.split_row(without_checksum(line), file.columns.size());
@@ -217,7 +217,7 @@ void name_columns_without_header(GuessedFile& file) {
     file.layout.header[i] = header_cell(file.format.header.back());
   }
   if (file.layout.delimiter == ',') file.format.delimiter = Delimiter::comma;
-  file.layout.header_line = file.layout.unit_line = 0;
+  file.layout.header_line = file.layout.unit_line = file.layout.last_text = 0;
 }
 
 GuessedFile guess_file(const std::string& path) {

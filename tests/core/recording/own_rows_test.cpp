@@ -39,6 +39,30 @@ TEST(OwnRows, AHeaderThatStandsAgainAndTextAtTheEndAreNoRows) {
       << "text between rows is not passed over";
 }
 
+TEST(OwnRows, AHeaderOfSeveralLinesHasNamesUnitsAndWords) {
+  const Folder folder;
+  const std::string names = "Time,Accelerometer X,Accelerometer Y,Accelerometer Z\n",
+                    units = "[s],[mg],[mg],[mg]\n", words = "CH0,CH1,CH2,CH3\n",
+                    rows = "1,0,0,1000\n2,0,0,1000\n";
+  for (const std::string& head : {names + units + words, names + words + units}) {
+    const GuessedFile file = guess_file(folder.write("own.csv", head + rows));
+    std::string text;
+    for (const GuessedColumn& c : file.columns) text += c.channel + c.unit + " ";
+    EXPECT_EQ(text, "times acc_xmg acc_ymg acc_zmg ") << head;
+    EXPECT_EQ(file.rows, 2u) << head;
+  }
+  const std::string path =
+      folder.write("r.csv", std::string("time,gyro_x,gyro_y,gyro_z,acc_x,acc_y,acc_z\n"
+                                        "s,deg/s,deg/s,deg/s,g,g,g\n"
+                                        "clock,FOG 1,FOG 2,FOG 3,A 1,A 2,A 3\n1") +
+                                still + "2" + still);
+  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0}));
+  EXPECT_TRUE(std::ranges::any_of(r.remarks.texts(), [](const std::string& s) {
+    return s.find("rows begin below line 3") != std::string::npos;
+  }));
+}
+
 TEST(OwnRows, ADelimiterAtTheEndOfEveryRowBeginsNoCell) {
   const Folder folder;
   std::string text = "time [s]," + imu_header;
