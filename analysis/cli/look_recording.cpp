@@ -165,7 +165,7 @@ ExitCode look_without_study(const std::string& path) {
     wrong = e.messages();
   }
   if (!read) show("\nIt is not a recording yet:\n- {}\n", fmt::join(wrong, "\n- "));
-  show_paste(!file.format.columns.empty() || !read ? recording_section(file) : "", card,
+  show_paste(needs_section(file) || !read ? recording_section(file) : "", card,
              file.complete ? " (guessed from names and values: check it)"
                            : " (guessed; write the units that show as [?])");
   if (const std::string missing = what_is_missing(file); !missing.empty())

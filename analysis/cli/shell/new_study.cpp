@@ -101,8 +101,7 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   std::string refused;
   if (file.complete || file.rows == 0) try {
       seen.recording = read_recording(path, file.format, kind, gravity);
-      if (!file.format.columns.empty() || !file.format.positions.empty())
-        seen.mapping = recording_section(file);
+      if (needs_section(file)) seen.mapping = recording_section(file);
       seen.unplaced = said;
       seen.mapping += as_comment(said);
       return seen;

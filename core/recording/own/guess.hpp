@@ -54,6 +54,9 @@ std::string other_kind(const GuessedFile& file, RecordingKind kind);
 /// overruled.
 std::string own_name(const GuessedColumn& column);
 
+/// Whether the file is read otherwise than without a word in the study file.
+bool needs_section(const GuessedFile& file);
+
 /// The [recording] section of a study file that says so.
 std::string recording_section(const GuessedFile& file);
 

@@ -99,6 +99,11 @@ std::vector<std::string> in_units_of(const GuessedFile& file, std::string_view c
 
 }  // namespace
 
+bool needs_section(const GuessedFile& file) {
+  const RecordingFormat& f = file.format;
+  return !f.columns.empty() || !f.positions.empty() || !f.date.empty() || !f.counter.empty();
+}
+
 std::string recording_section(const GuessedFile& file) {
   std::string columns, positions;  // TOML keeps an inline table on one line
   for (const GuessedColumn& c : file.columns)

@@ -44,6 +44,17 @@ TEST(DateAndClock, ADateIsThatOfTheTimeAndNoPosition) {
       << "nor is it a position beside other times";
 }
 
+TEST(DateAndClock, TheProgramsOwnNamesNeedTheDateSaid) {
+  const Folder folder;
+  const auto needs = [&](const std::string& second) {
+    return needs_section(guess_file(
+        folder.write("own.csv", "date;time;acc_x [g];acc_y [g];acc_z [g]\n2026-03-14;23:59:58" +
+                                    level + second + ";00:00:00" + level)));
+  };
+  EXPECT_TRUE(needs("2026-03-15"));
+  EXPECT_FALSE(needs("2026-03-14"));
+}
+
 TEST(DateAndClock, AreReadAsOneTime) {
   const Folder folder;
   const std::string path =
