@@ -6,6 +6,7 @@
 #include "core/config/nearest.hpp"
 #include "core/params/covariates.hpp"
 #include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
 
@@ -19,6 +20,19 @@ std::string bare(std::string_view name) {
   return out;
 }
 
+/// "Zeit / s" and "Zeit in s" are the name and its unit.
+void split_off_unit(HeaderCell& cell) {
+  for (const std::string_view between : {" / ", " in "}) {
+    const auto end = cell.name.rfind(between);
+    if (end == std::string::npos || end == 0) continue;
+    const std::string unit(trimmed(std::string_view(cell.name).substr(end + between.size())));
+    if (!parse_recording_unit(unit)) continue;
+    cell.unit = unit;
+    cell.name = trimmed(std::string_view(cell.name).substr(0, end));
+    return;
+  }
+}
+
 }  // namespace
 
 HeaderCell header_cell(std::string_view text) {
@@ -30,7 +44,10 @@ HeaderCell header_cell(std::string_view text) {
   const bool round = bracket == std::string_view::npos && text.ends_with(')');
   const auto at = round ? text.rfind('(') : bracket;
   cell.name = trimmed(text.substr(0, at));
-  if (at == std::string_view::npos) return cell;
+  if (at == std::string_view::npos) {
+    split_off_unit(cell);
+    return cell;
+  }
   if (text.back() == (round ? ')' : ']'))
     cell.unit = trimmed(text.substr(at + 1, text.size() - at - 2));
   else

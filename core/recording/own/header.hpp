@@ -10,7 +10,8 @@
 
 namespace drift {
 
-/// One cell of a header row: "name [unit]" or "name (unit)".
+/// One cell of a header row: "name [unit]" or "name (unit)"; "name / unit" (DIN 461) or "name in
+/// unit", where what stands there is a unit.
 struct HeaderCell {
   std::string whole;                ///< as it stands in the file
   std::string name;                 ///< without the unit

@@ -64,6 +64,11 @@ TEST(OwnReadings, UnitsOfTheHeadingDecideWhatAColumnIsNot) {
   EXPECT_EQ(channels("clock;T [\u00B0C]", first, second), "time temperature\u00B0C " + acc);
   EXPECT_EQ(channels("clock;t (K)", "22:12:00;294,1", "22:14:00;294,2"),
             "time temperatureK " + acc);
+  EXPECT_EQ(channels("Zeit / s;T / K", "1;294,1", "2;294,2"), "times temperatureK " + acc);
+  EXPECT_EQ(channels("Zeit in min;T in \u00B0C", "1;21,1", "2;21,2"),
+            "timemin temperature\u00B0C " + acc);
+  EXPECT_EQ(channels("Zeit / s;Gyro x / deg/s", "1;3", "2;4"), "times gyro_xdeg/s " + acc);
+  EXPECT_EQ(channels("Zeit / s;an / aus", "1;3", "2;4"), "times - " + acc);
   EXPECT_EQ(channels("clock;T_degC", first, second), "time temperaturedegC " + acc);
   // Without a unit "T" is what a clock leaves of it.
   EXPECT_EQ(channels("T;Uhrzeit", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
