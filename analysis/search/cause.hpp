@@ -33,6 +33,11 @@ struct CauseParameter {
 
   /// The 95 % interval: by refits where there is one, else by the sigma.
   bool by_refits() const { return std::isfinite(low_95) && std::isfinite(high_95); }
+  /// Whether value and sigma say as much as the ends that refits found.
+  bool sigma_says_it() const {
+    const bool none = !std::isfinite(low_95) && !std::isfinite(high_95);
+    return none || stats::normal_says(value, sigma, low_95, high_95);
+  }
   double low() const { return by_refits() ? low_95 : value - stats::half_width_95 * sigma; }
   double high() const { return by_refits() ? high_95 : value + stats::half_width_95 * sigma; }
 };

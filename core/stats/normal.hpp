@@ -11,4 +11,9 @@ double normal_quantile(double p);
 double normal_half_width(double confidence);
 inline constexpr double half_width_95 = 1.959963984540054;  ///< normal_half_width(0.95)
 
+/// Whether a normal distribution of this mean and sigma says of a 95 % interval what it is: beyond
+/// either end lies between half and twice of the 2.5 % that should. An end that is not finite is
+/// not what it says.
+bool normal_says(double mean, double sigma, double low, double high);
+
 }  // namespace drift::stats

@@ -35,9 +35,21 @@ double in_prior_sigmas(const search::CauseParameter& p) {
   return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
 }
 
+/// "0.056±0.011", or where refits found the interval to be another "0.056 (95 %: 0.037 to 0.22)".
+std::string value_of(const search::CauseParameter& p) {
+  constexpr int digits = 2;
+  // Of lambda, which is between two equations, the interval is told in any case.
+  if (p.param == closure_param || p.sigma_says_it()) return with_sigma(p.value, p.sigma);
+  const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
+  return fmt::format("{} (95 %: {}{}{}{})", number_text(p.value, digits),
+                     low ? (high ? "" : "at least ") : "at most ",
+                     low ? number_text(p.low_95, digits) : "", low && high ? " to " : "",
+                     high ? number_text(p.high_95, digits) : "");
+}
+
 std::string number_of(const search::CauseParameter& p) {
-  std::string text = fmt::format("{} = {}{}{}", p.key, with_sigma(p.value, p.sigma),
-                                 p.unit == "1" ? "" : " ", p.unit == "1" ? "" : p.unit);
+  std::string text = fmt::format("{} = {}{}{}", p.key, value_of(p), p.unit == "1" ? "" : " ",
+                                 p.unit == "1" ? "" : p.unit);
   if (const double size = in_prior_sigmas(p); size > unusual_size)
     text += fmt::format(", {} times its usual size", number_text(size, 2));
   return text;

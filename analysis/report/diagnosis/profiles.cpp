@@ -14,7 +14,6 @@ using diagnosis::Profile;
 
 constexpr double shown_loss = 14.0, loss_95 = 3.841;
 constexpr double shown_sigmas = 5.0;  // further refits would press the rest into a line
-constexpr double as_said = 0.15;      // part of the interval by which its ends may be elsewhere
 
 std::vector<Profile::Point> shown_points(const Profile& p) {
   std::vector<Profile::Point> shown = p.points;
@@ -81,8 +80,7 @@ std::string profile_in_words(const Profile& p) {
   const auto number = [&](double v) {
     return std::isfinite(v) ? to_match(v, 0.5 * p.sigma) : std::string("beyond the refits");
   };
-  const double room = 2.0 * half * as_said;
-  const bool agrees = std::abs(p.low_95 - low) <= room && std::abs(p.high_95 - high) <= room;
+  const bool agrees = stats::normal_says(p.value, p.sigma, p.low_95, p.high_95);
   std::string said =
       fmt::format("{} {}: {} to {}{} by refits, {} to {} by its sigma: {}.", p.label, p.key,
                   number(p.low_95), number(p.high_95), unit_after(p), number(low), number(high),

@@ -30,5 +30,14 @@ TEST(NormalQuantile, IsTheInverseOfTheDistributionFunction) {
   EXPECT_NEAR(normal_half_width(0.95), half_width_95, 1e-14);
 }
 
+TEST(NormalSays, AnIntervalIsItsOwnWhileItsTailsAreWithinAFactorOfTwo) {
+  EXPECT_TRUE(normal_says(5.0, 2.0, 5.0 - 2.0 * half_width_95, 5.0 + 2.0 * half_width_95));
+  const double wide = normal_half_width(1.0 - 0.025), narrow = normal_half_width(1.0 - 0.1);
+  EXPECT_TRUE(normal_says(0.0, 1.0, -0.999 * wide, 1.001 * narrow));
+  EXPECT_FALSE(normal_says(0.0, 1.0, -1.001 * wide, half_width_95));
+  EXPECT_FALSE(normal_says(0.0, 1.0, -half_width_95, 0.999 * narrow));
+  EXPECT_FALSE(normal_says(0.0, 1.0, std::nan(""), half_width_95));
+}
+
 }  // namespace
 }  // namespace drift::stats::normal_test

@@ -74,6 +74,28 @@ TEST(Intervals, OfTheSentenceAndOfTheJsonAreOne) {
   expect(0.125, 0.31);
 }
 
+TEST(Intervals, ASizeHasItsIntervalWhereItsSigmaSaysAnother) {
+  diagnosis::Diagnosis d;
+  d.verdict = diagnosis::Verdict::named;
+  search::Cause cause;
+  cause.term = "warmup_drift";
+  cause.axis = "x";
+  cause.parameters.push_back({"W_x", TermLibrary::index("W_x"), 0.056, 0.011, "deg/h"});
+  d.causes.push_back(cause);
+  search::CauseParameter& told = d.causes.front().parameters.front();
+  const auto expect = [&](double low, double high, const std::string& text) {
+    told.low_95 = low;
+    told.high_95 = high;
+    EXPECT_NE(sentence(d).find(text), std::string::npos) << sentence(d);
+  };
+  const double none = std::nan("");
+  expect(none, none, "W_x = 0.056±0.011 deg/h");
+  expect(0.035, 0.078, "W_x = 0.056±0.011 deg/h");
+  expect(0.037, 0.218, "W_x = 0.056 (95 %: 0.037 to 0.22) deg/h");
+  expect(0.037, none, "W_x = 0.056 (95 %: at least 0.037) deg/h");
+  expect(none, 0.218, "W_x = 0.056 (95 %: at most 0.22) deg/h");
+}
+
 TEST(NormalQuantiles, OfNumbersThatAreQuantilesLieOnTheLine) {
   MatX residual(1, 1001);
   for (Eigen::Index i = 0; i < 1000; ++i)  // in no order
