@@ -6,6 +6,7 @@
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -138,6 +139,30 @@ Sentences equations_of(const std::vector<Cause>& causes, Instrument instrument) 
   return said;
 }
 
+/// A size of a cause is given with all at zero that the same effect could have on that axis
+/// besides.
+Sentences taken_as_zero(const Diagnosis& d) {
+  Sentences said;
+  for (const Cause& c : d.causes) {
+    const auto term = TermLibrary::find_term(c.term);
+    if (!term || c.axis.empty()) continue;
+    const TermInfo& info = TermLibrary::terms[*term];
+    std::vector<std::string> zero;
+    for (std::size_t i = info.first; i < info.first + info.count; ++i) {
+      const ParamSpec& spec = TermLibrary::specs[i];
+      if (spec.amplitude() && spec.axis == c.axis && !d.nominal.active[i] &&
+          std::ranges::find(c.parameters, i, &CauseParameter::param) == c.parameters.end())
+        zero.emplace_back(spec.key.view());
+    }
+    if (!zero.empty())
+      said.items.push_back(fmt::format(
+          "{}: its size is that with {} at zero, which the same effect may have too and this "
+          "recording does not ask for.",
+          shown_label(d, c), listed(zero, "and")));
+  }
+  return said;
+}
+
 }  // namespace
 
 Table candidate_table(const Diagnosis& d) {
@@ -176,6 +201,8 @@ Section what(const Diagnosis& d) {
   section.add(cause_figure(d));
   if (!d.causes.empty()) section.add({cause_table(d)});
   if (Sentences said = equations_of(d.causes, instrument_of(d)); !said.items.empty())
+    section.add({{std::move(said), On::page}});
+  if (Sentences said = taken_as_zero(d); !said.items.empty())
     section.add({{std::move(said), On::page}});
   if (!d.inseparable.empty())
     section.add(

@@ -96,6 +96,23 @@ TEST(Intervals, ASizeHasItsIntervalWhereItsSigmaSaysAnother) {
   expect(none, 0.218, "W_x = 0.056 (95 %: at most 0.22) deg/h");
 }
 
+TEST(Causes, ASizeSaysWhatElseOfTheEffectItTakesAsZero) {
+  const test::ScratchFolder folder;
+  const mc::Study study = test::read_text(folder, "study.toml", test::nominal_study);
+  diagnosis::Diagnosis d = test::diagnosis(study.filters.front());
+  const auto said = [&d] {
+    std::string all;
+    for (const Block& b : what(d).blocks)
+      if (const auto* sentences = std::get_if<Sentences>(&b.content))
+        for (const std::string& item : sentences->items) all += item + "\n";
+    return all;
+  };
+  EXPECT_NE(said().find("its size is that with D_I_y and D_O_y at zero"), std::string::npos)
+      << said();
+  for (const char* key : {"D_I_y", "D_O_y"}) d.nominal.active.set(TermLibrary::find(key).value());
+  EXPECT_EQ(said().find("at zero"), std::string::npos) << said();
+}
+
 TEST(NormalQuantiles, OfNumbersThatAreQuantilesLieOnTheLine) {
   MatX residual(1, 1001);
   for (Eigen::Index i = 0; i < 1000; ++i)  // in no order
