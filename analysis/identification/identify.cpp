@@ -9,6 +9,7 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/considered_field.hpp"
+#include "analysis/identification/counted_start.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -112,6 +113,10 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
     s.coupling = study.filters[f].coupling;
     s.layout = make_layout(study.filters[f]);
     const auto runs = id.runs_of(f);
+    const CountedStart counted = counted_start(
+        study.filters[f], runs, id.test_of_each_start ? Measured::by_each_start : Measured::once);
+    s.counted_start = counted.start;
+    s.agreeing_starts = counted.agreeing;
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
       std::vector<double> ekf, ekf_sigma, batch, batch_sigma;
       for (const FilterRun* r : runs) {
@@ -123,7 +128,7 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
       s.spread.push_back({s.layout.params[k], start_consistency(ekf, ekf_sigma),
                           start_consistency(batch, batch_sigma)});
     }
-    s.unseen = weak_directions(runs.front()->batch.information_root, 1.0);
+    s.unseen = weak_directions(id.counted(s).batch.information_root, 1.0);
     s.weak = s.unseen.size();
     std::erase_if(s.unseen,
                   [](const WeakDirection& d) { return d.information >= unseen_information; });
@@ -180,7 +185,7 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
 void doubt_study(const mc::Study& study, const std::vector<Recording>& recordings,
                  Identification& id) {
   const auto result = [&](const FilterSummary& s) -> const EstimateResult& {
-    return judged(study.filters[s.filter], *id.runs_of(s.filter).front());
+    return judged(study.filters[s.filter], id.counted(s));
   };
   constexpr auto d_lat = TermLibrary::index("d_lat");
   const auto fits = [&](const FilterSummary& s) {
@@ -200,8 +205,8 @@ void doubt_study(const mc::Study& study, const std::vector<Recording>& recording
 
 }  // namespace
 
-const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first) {
-  return drift_varies(filter) ? first.ekf : first.batch.estimate;
+const EstimateResult& judged(const FilterSpec& filter, const FilterRun& run) {
+  return drift_varies(filter) ? run.ekf : run.batch.estimate;
 }
 
 bool misfit(const EstimateResult& result) {
@@ -216,6 +221,10 @@ std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const 
   for (const FilterRun& r : runs)
     if (r.filter == filter) found.push_back(&r);
   return found;
+}
+
+const FilterRun& Identification::counted(const FilterSummary& filter) const {
+  return *runs_of(filter.filter)[filter.counted_start];
 }
 
 Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
@@ -238,6 +247,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);
   set_lambda(study.truth, id.truth->theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
+    id.test_of_each_start = true;
     run_jobs(study, id, threads, progress, [&](const Job& job) {
       return estimate_in_the_loop(study, job, timeline, *id.truth, run);
     });
@@ -275,9 +285,9 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
     return estimate(ready.study, job, test.timeline, test.measured);
   });
   consider_field(ready.study, test, id);
-  id.spikes =
-      without_spikes(test.measured, test.timeline, ready.study.readout, id.runs.front().batch)
-          .spikes;
+  id.spikes = without_spikes(test.measured, test.timeline, ready.study.readout,
+                             id.counted(id.summaries.front()).batch)
+                  .spikes;
   id.absent = absent_channels(ready.recordings, ready.study.readout);
   if (late_labels(id.spikes) == 0) doubt_study(ready.study, ready.recordings, id);
   return id;

@@ -41,6 +41,8 @@ struct FilterSummary {
   Layout layout;
   std::vector<StartSpread> spread;    ///< layout order; NaN ratios with one start
   std::vector<WeakDirection> unseen;  ///< directions below unseen_information, weakest first
+  std::size_t counted_start = 0;      ///< which is believed (counted_start()), among its runs
+  std::size_t agreeing_starts = 0;    ///< with it, itself with them
   std::size_t weak = 0;               ///< directions of which the prior says more than the data
   bool field_considered = false;  ///< sigmas hold the error of an assumed field (consider_field())
   std::optional<HeadingDoubt> heading_doubt;    ///< behind its misfit
@@ -60,6 +62,7 @@ struct SampleOfTest {
 /// Parameters of a platform, estimated from one test by every filter and start of a study.
 struct Identification {
   bool simulated = false;
+  bool test_of_each_start = false;    ///< in a loop that is fed back; else one test for all
   std::optional<TruthDraw> truth;     ///< of a simulated recording
   std::vector<Recording> recordings;  ///< as they were used; of a simulation the one
   std::vector<std::string> sources;
@@ -74,11 +77,14 @@ struct Identification {
   std::vector<FilterSummary> summaries;
 
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;
+
+  /// The run that a filter is judged by: whatever is said of the filter is said of this one.
+  const FilterRun& counted(const FilterSummary& filter) const;
 };
 
-/// What is believed of a filter from its first start: where its drift varies, which the batch fit
-/// does not model, the EKF.
-const EstimateResult& judged(const FilterSpec& filter, const FilterRun& first);
+/// What is believed of a run of a filter: where its drift varies, which the batch fit does not
+/// model, the EKF.
+const EstimateResult& judged(const FilterSpec& filter, const FilterRun& run);
 
 /// Chi-square over its degrees of freedom is where no right model has it (FitLimits::misfit).
 bool misfit(const EstimateResult& result);

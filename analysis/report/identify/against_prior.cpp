@@ -58,9 +58,10 @@ Section against_prior(const FilterView& v) {
   return {"",
           {figure_of(
               std::move(chart),
-              fmt::format("Estimates of {} from start 1; an axis from -2 to 2 holds 95 % of what "
+              fmt::format("Estimates of {} from start {}; an axis from -2 to 2 holds 95 % of what "
                           "the prior expects.{}",
                           drift_varies(v.spec()) ? "the EKF" : "the batch fit",
+                          v.id.counted(v.summary).start + 1,
                           others > 0 ? fmt::format(" Of {} parameters less is learned: they are "
                                                    "in the table below.",
                                                    others)

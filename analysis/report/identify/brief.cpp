@@ -87,8 +87,7 @@ std::string beyond_text(const FilterView& v) {
   const bool one = keys.size() == 1;
   return fmt::format(
       "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, missing "
-      "physics, or a "
-      "study that is not of this recording (latitude, axes, unit of time).",
+      "physics, or a study that is not of this recording (latitude, axes, unit of time).",
       v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
       inference::FitLimits::beyond_prior, one ? "its" : "their",
       one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most));
@@ -258,7 +257,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     const auto add = [&](Weight weight, const std::string& said) {
       if (!said.empty()) brief.more.add(weight, said);
     };
-    for (const auto text : {which_counts, considered_text, remembered_text, outside_text})
+    for (const auto text :
+         {other_start_text, which_counts, considered_text, remembered_text, outside_text})
       add(Weight::doubtful, text(view));
     add(Weight::wrong, beyond_text(view));
     if (const auto common = identification::common_scale(judged(view)); common && believed(view))

@@ -74,7 +74,7 @@ std::vector<CorrelatedPair> strongest_pairs(const MatX& correlation) {
 
 /// How the estimates of a filter hang together: the parameters with the strongest correlations.
 Section correlations(const FilterView& v) {
-  const identification::FilterRun& run = *v.id.runs_of(v.summary.filter).front();
+  const identification::FilterRun& run = v.id.counted(v.summary);
   const bool batch = run.batch.estimate.covariance.size() > 0;
   const EstimateResult& result = batch ? run.batch.estimate : run.ekf;
   if (result.covariance.rows() < 2) return {};
@@ -97,9 +97,9 @@ Section correlations(const FilterView& v) {
   return {
       "",
       {figure_of(std::move(map),
-                 fmt::format("Posterior correlations, {} from start 1. ±1: only a combination is "
+                 fmt::format("Posterior correlations, {} from start {}. ±1: only a combination is "
                              "known.{}",
-                             batch ? "batch fit" : "EKF", chosen)),
+                             batch ? "batch fit" : "EKF", run.start + 1, chosen)),
        Paragraph{said_of_pairs(pairs, v.summary.layout)}},
       On::page};
 }

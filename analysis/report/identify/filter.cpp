@@ -73,47 +73,53 @@ void add_headings(Table& table, const FilterView& v, std::size_t param, std::siz
                                   prior_text(v.summary.layout, spec.group.view())));
 }
 
-/// In which parameter EKF and batch fit of the first start differ most, by how much, and which
-/// counts; empty if a sigma is 0 everywhere.
+/// In which parameter EKF and batch fit of the start that counts differ most, by how much, and
+/// which counts; empty if a sigma is 0 everywhere.
 std::string furthest_apart(const FilterView& v) {
-  const identification::FilterRun& first = *v.id.runs_of(v.summary.filter).front();
+  const identification::FilterRun& counted = v.id.counted(v.summary);
   std::size_t param = TermLibrary::num_params;
   double most = 0.0;  // [batch sigma]
   for (std::size_t k = 0; k < v.summary.layout.size(); ++k) {
-    const ParameterEstimate &ekf = first.ekf.parameters[k],
-                            &batch = first.batch.estimate.parameters[k];
+    const ParameterEstimate &ekf = counted.ekf.parameters[k],
+                            &batch = counted.batch.estimate.parameters[k];
     const double apart = std::abs(ekf.value - batch.value) / batch.sigma;
     if (!(apart > most) || !std::isfinite(apart)) continue;
     most = apart;
     param = v.summary.layout.params[k];
   }
   if (param == TermLibrary::num_params) return "";
-  return fmt::format(
-      " EKF 1 and batch are furthest apart in {}, by {:.2g} sigma; {}.", parameter_key(param), most,
-      drift_varies(v.spec()) ? "the EKF counts: the batch fit knows no drift that varies"
-                             : "the batch fit counts: it is iterated, the EKF passes once");
+  return fmt::format(" EKF {} and batch are furthest apart in {}, by {:.2g} sigma; {}.",
+                     counted.start + 1, parameter_key(param), most,
+                     drift_varies(v.spec())
+                         ? "the EKF counts: the batch fit knows no drift that varies"
+                         : "the batch fit counts: it is iterated, the EKF passes once");
 }
 
 /// Truth, prior, EKF (of so many starts) and batch estimates, learning ratio and start consistency
 /// of every parameter, grouped by term.
 Table estimate_table(const FilterView& v, On where, std::size_t starts) {
-  const auto runs = v.id.runs_of(v.summary.filter);
-  starts = std::min(starts, runs.size());
+  auto runs = v.id.runs_of(v.summary.filter);
+  const std::size_t all = runs.size();
+  const identification::FilterRun& counted = v.id.counted(v.summary);
+  if (v.summary.counted_start >= starts) runs[starts - 1] = &counted;  // shown beside the first
+  runs.resize(std::min(starts, all));
   Table table(
       fmt::format("Estimates of filter {}", v.spec().name),
       where == On::page ? "< | <unit | prior sigma" : "<",
       fmt::format(
-          "Values ± 1 sigma{}; batch: from start 1. left: posterior / prior sigma of {}, 1 = "
+          "Values ± 1 sigma{}; batch: from start {}. left: posterior / prior sigma of {}, 1 = "
           "nothing learned. {}wrong: by more than 5 sigma of the truth.{}",
-          starts < runs.size() ? fmt::format(", {} of {} starts shown", starts, runs.size()) : "",
-          drift_varies(v.spec()) ? "EKF 1" : "the batch fit",
-          runs.size() < 2 ? ""
-                          : fmt::format("ratio: standard deviation between the EKF's {} starts / "
-                                        "RMS of their sigmas. ",
-                                        runs.size()),
+          runs.size() < all ? fmt::format(", {} of {} starts shown", runs.size(), all) : "",
+          counted.start + 1,
+          drift_varies(v.spec()) ? fmt::format("EKF {}", counted.start + 1) : "the batch fit",
+          all < 2 ? ""
+                  : fmt::format("ratio: standard deviation between the EKF's {} starts / "
+                                "RMS of their sigmas. ",
+                                all),
           furthest_apart(v)));
   if (v.id.truth) table.add_columns("truth");
-  for (std::size_t s = 0; s < starts; ++s) table.add_columns(fmt::format("EKF {}", s + 1));
+  for (const identification::FilterRun* run : runs)
+    table.add_columns(fmt::format("EKF {}", run->start + 1));
   table.add_columns("batch | left | ratio | <verdict");
   std::size_t before = TermLibrary::num_params;
   for (const std::size_t k : library_order(v.summary.layout)) {
@@ -124,11 +130,11 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
     std::vector<Cell> cells{parameter_key(param)};
     if (where == On::page)
       cells.insert(cells.end(), {parameter_unit(param), v.summary.layout.sigma[k] / unit});
-    const ParameterEstimate& batch = runs.front()->batch.estimate.parameters[k];
+    const ParameterEstimate& batch = counted.batch.estimate.parameters[k];
     if (v.id.truth)
       cells.emplace_back(to_match(v.id.truth->theta[param] / unit, batch.sigma / unit));
-    for (std::size_t s = 0; s < starts; ++s) {
-      const ParameterEstimate& p = runs[s]->ekf.parameters[k];
+    for (const identification::FilterRun* run : runs) {
+      const ParameterEstimate& p = run->ekf.parameters[k];
       cells.push_back(plus_minus(p.value / unit, p.sigma / unit));
     }
     const double left = judged(v).parameters[k].learning_ratio();

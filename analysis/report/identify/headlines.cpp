@@ -57,6 +57,21 @@ std::string start_sentence(const FilterView& v) {
       dependent.size(), v.summary.spread.size(), fmt::join(dependent, ", "));
 }
 
+/// Of several starts: which one counts, why, and how many end there; empty where none converged.
+std::string counted_sentence(const FilterView& v) {
+  const std::size_t starts = v.id.runs_of(v.summary.filter).size(),
+                    agreeing = v.summary.agreeing_starts;
+  if (starts < 2 || agreeing == 0) return "";
+  const std::size_t start = v.id.counted(v.summary).start;
+  const std::string_view what = drift_varies(v.spec()) ? "EKF" : "batch fit";
+  return fmt::format(
+      "start {} counts, {}; {} of {} starts end{} there within their sigmas.", start + 1,
+      v.id.test_of_each_start
+          ? fmt::format("the first whose {} converged (each has a test of its own)", what)
+          : fmt::format("the {} of least chi-square of those that converged", what),
+      agreeing, starts, agreeing == 1 ? "s" : "");
+}
+
 /// The EKF's NIS is not that of a right model, or it is far from the batch fit, which is.
 bool batch_alone_fits(const FilterView& v, const identification::FilterRun& run) {
   if (drift_varies(v.spec()) || run.batch.estimate.status != EstimateStatus::ok ||
@@ -82,7 +97,7 @@ std::string nis_sentence(const FilterView& v,
                                   : fmt::format("outside the 95 % band of a right model from {} "
                                                 "of {} start{}{}",
                                                 outside, runs.size(), plural(runs.size()),
-                                                batch_alone_fits(v, *runs.front())
+                                                batch_alone_fits(v, v.id.counted(v.summary))
                                                     ? "; the batch fit, which counts, is inside"
                                                     : ""));
 }
@@ -95,12 +110,13 @@ std::string dispute_sentence(const FilterView& v, const identification::FilterRu
   if (count == 0 || drift_varies(v.spec())) return "";
   keys.resize(std::min(count, most));
   return fmt::format(
-      "from start 1, EKF and batch fit are outside each other's 95 % interval, or claim sigmas "
+      "from start {}, EKF and batch fit are outside each other's 95 % interval, or claim sigmas "
       "that "
       "differ threefold, in {} of {} parameters: {}{}. The EKF linearises once, where it is then; "
       "what is "
       "not linear over its prior leads it astray with a small sigma. Use the batch column.",
-      count, v.summary.spread.size(), fmt::join(keys, ", "), count > most ? " and others" : "");
+      run.start + 1, count, v.summary.spread.size(), fmt::join(keys, ", "),
+      count > most ? " and others" : "");
 }
 
 std::vector<std::string> sentences_of(const FilterView& v) {
@@ -118,8 +134,9 @@ std::vector<std::string> sentences_of(const FilterView& v) {
     said.push_back(fmt::format("{} of {} start{} failed or did not converge.", failed, runs.size(),
                                plural(runs.size())));
   if (runs.size() > 1) said.push_back(start_sentence(v));
+  said.push_back(counted_sentence(v));
   said.push_back(nis_sentence(v, runs));
-  said.push_back(dispute_sentence(v, *runs.front()));
+  said.push_back(dispute_sentence(v, v.id.counted(v.summary)));
   said.push_back(considered_text(v));
   said.push_back(remembered_text(v));
   if (!v.summary.unseen.empty())
@@ -133,7 +150,7 @@ std::vector<std::string> sentences_of(const FilterView& v) {
 
 std::string which_counts(const FilterView& v) {
   constexpr std::size_t most = 3;
-  const identification::FilterRun& run = *v.id.runs_of(v.summary.filter).front();
+  const identification::FilterRun& run = v.id.counted(v.summary);
   if (!batch_alone_fits(v, run)) return "";
   const std::vector<std::string> keys = disputed(run);
   return fmt::format(
@@ -144,6 +161,12 @@ std::string which_counts(const FilterView& v) {
       : keys.empty()
           ? "has innovations that it does not expect"
           : fmt::format("is off beyond its own 95 % interval ({})", listed_up_to(keys, most)));
+}
+
+std::string other_start_text(const FilterView& v) {
+  const bool all = v.summary.agreeing_starts == v.id.runs_of(v.summary.filter).size();
+  const std::string said = all && v.summary.counted_start == 0 ? "" : counted_sentence(v);
+  return said.empty() ? "" : fmt::format("Filter {}: {}", v.spec().name, said);
 }
 
 std::string considered_text(const FilterView& v) {
@@ -157,7 +180,7 @@ std::string considered_text(const FilterView& v) {
 }
 
 std::string remembered_text(const FilterView& v) {
-  const auto& doubt = v.id.runs_of(v.summary.filter).front()->memory_doubt;
+  const auto& doubt = v.id.counted(v.summary).memory_doubt;
   return doubt.empty() ? "" : fmt::format("Filter {}: the {}.", v.spec().name, memory_text(doubt));
 }
 

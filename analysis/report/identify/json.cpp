@@ -121,13 +121,15 @@ Json identification_document(const mc::Study& study, const identification::Ident
     Json& starts = f["starts"] = Json::array();
     for (const identification::FilterRun* run : id.runs_of(summary.filter))
       starts.push_back(run_json(*run));
+    f["counted_start"] = id.counted(summary).start + 1;
+    f["agreeing_starts"] = summary.agreeing_starts;  // with it and itself; 0: none converged
     f["beyond_prior"] = beyond_prior({study, id, summary});
     f["heading_doubt"] =
         summary.heading_doubt ? heading_json(*summary.heading_doubt) : Json(nullptr);
     f["latitude_doubt"] = latitude_json(summary.latitude_doubt);
     f["clock_doubt"] = clock_json(summary.latitude_doubt);
     Json& remembered = f["memory_off"] = Json::object();  // rms part of what a term remembers
-    for (const MemoryLeftOut& one : id.runs_of(summary.filter).front()->memory_doubt)
+    for (const MemoryLeftOut& one : id.counted(summary).memory_doubt)
       remembered[one.term] = one.part;
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "analysis/identification/counted_start.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "core/estimate/start_consistency.hpp"
 
@@ -22,8 +23,7 @@ double share_of_sums(const FilterView& v, std::size_t state, const ParameterEsti
 }  // namespace
 
 bool believed(const FilterView& v) {
-  const EstimateResult& result = judged(v);
-  return result.status == EstimateStatus::ok && !misfit(result);
+  return identification::fits(judged(v));
 }
 
 ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {

@@ -46,6 +46,10 @@ std::vector<std::string> headlines(const mc::Study& study,
 /// batch fit counts. Empty elsewhere, and with process noise, which the EKF alone knows.
 std::string which_counts(const FilterView& view);
 
+/// Where not the first of several starts counts, or others do not agree with it: which one does,
+/// why, and how many agree. Empty elsewhere, and where none converged.
+std::string other_start_text(const FilterView& view);
+
 /// That the magnetic field was assumed and its error is in the sigmas; empty elsewhere.
 std::string considered_text(const FilterView& view);
 
@@ -90,7 +94,7 @@ Cell verdict_cell(double ratio);
 
 /// What is believed of a filter.
 inline const EstimateResult& judged(const FilterView& v) {
-  return identification::judged(v.spec(), *v.id.runs_of(v.summary.filter).front());
+  return identification::judged(v.spec(), v.id.counted(v.summary));
 }
 
 /// The information of the data by which that is judged that the test does not see.

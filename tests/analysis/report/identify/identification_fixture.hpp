@@ -91,6 +91,7 @@ inline identification::Identification identification(const mc::Study& s) {
     summary.name = s.filters[f].name;
     summary.coupling = s.filters[f].coupling;
     summary.layout = make_layout(s.filters[f]);
+    summary.agreeing_starts = 3;  // the batch fits
     const auto n = static_cast<Eigen::Index>(summary.layout.size());
     for (std::size_t k = 0; k < 3; ++k) {
       identification::FilterRun run;
