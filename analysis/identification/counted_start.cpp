@@ -85,4 +85,19 @@ bool fits(const EstimateResult& result) {
   return result.status == EstimateStatus::ok && !misfit(result);
 }
 
+void try_prior_means(const mc::Study& study, Identification& id,
+                     const std::function<FilterRun(std::size_t, std::size_t)>& estimate) {
+  for (std::size_t f = 0; f < study.filters.size(); ++f) {
+    const FilterSpec& filter = study.filters[f];
+    auto runs = id.runs_of(f);
+    const std::size_t before = counted_start(filter, runs, Measured::once).start;
+    if (!filter.starts.empty() || fits(judged(filter, *runs[before]))) continue;
+    FilterRun mean = estimate(f, runs.size());
+    runs.push_back(&mean);
+    if (fits(judged(filter, mean)) &&
+        counted_start(filter, runs, Measured::once).start + 1 == runs.size())
+      id.runs.insert(std::ranges::upper_bound(id.runs, f, {}, &FilterRun::filter), std::move(mean));
+  }
+}
+
 }  // namespace drift::identification

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "analysis/identification/identify.hpp"
@@ -32,5 +33,11 @@ CountedStart counted_start(const FilterSpec& filter, const std::vector<const Fil
 
 /// Converged, and no misfit.
 bool fits(const EstimateResult& result);
+
+/// Where no start of a filter that draws them fits, the prior mean is tried as one more after them:
+/// from afar a fit may end in another valley. It is kept, as the run that counts, where it fits.
+/// estimate: of a filter of the study from a start, which is start_count() here. For one test.
+void try_prior_means(const mc::Study& study, Identification& id,
+                     const std::function<FilterRun(std::size_t, std::size_t)>& estimate);
 
 }  // namespace drift::identification

@@ -10,12 +10,12 @@
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/considered_field.hpp"
 #include "analysis/identification/counted_start.hpp"
+#include "analysis/identification/filter_run.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
 #include "core/base/memory.hpp"
-#include "core/estimate/closure/closure_posterior.hpp"
 #include "core/estimate/start_consistency.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/physics/stochastic.hpp"
@@ -27,10 +27,6 @@
 namespace drift::identification {
 namespace {
 
-struct Job {
-  std::size_t filter, start;
-};
-
 std::vector<Job> jobs_of(const mc::Study& study) {
   if (study.filters.empty())
     throw InputError(ExitCode::config,
@@ -41,67 +37,6 @@ std::vector<Job> jobs_of(const mc::Study& study) {
   for (std::size_t f = 0; f < study.filters.size(); ++f)
     for (std::size_t s = 0; s < start_count(study.filters[f]); ++s) jobs.push_back({f, s});
   return jobs;
-}
-
-void fit_by_batch(FilterRun& run, const FilterSpec& filter, const MeasuredTest& test,
-                  const Theta& start) {
-  run.batch = fit_batch(filter, test, start);
-  run.memory_doubt = memory_doubt(filter, run.batch, test.timeline);
-  run.batch.estimate = over_closure(filter, test, run.batch);
-}
-
-FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timeline,
-                   const Measurements& measured) {
-  const FilterSpec& filter = study.filters[job.filter];
-  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
-  FilterRun run;
-  run.filter = job.filter;
-  run.start = job.start;
-  run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
-  fit_by_batch(run, filter, {timeline, study.readout, measured}, start);
-  for (EstimateResult* result : {&run.ekf, &run.batch.estimate})
-    result->noise_at_most = study.readout.accelerometers_rounded || study.readout.gimbals_rounded;
-  return run;
-}
-
-void require_ok(const OdeResult& ode, std::uint64_t run) {
-  if (!ode.ok())
-    throw InputError(
-        ExitCode::self_check,
-        fmt::format("simulation of run {} failed at t = {:.6g} s: {} ({}). The truth may be "
-                    "unphysical: see `driftscope check`",
-                    run, ode.t, name(ode.status), ode.cause));
-}
-
-/// One filter and start, in the loop: the test is simulated position by position, and at the start
-/// of each the loop is given the filter's running estimate of the misalignments.
-FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline timeline,
-                               const TruthDraw& draw, std::uint64_t run_number) {
-  constexpr auto eta = TermLibrary::index("eta_x");
-  const FilterSpec& filter = study.filters[job.filter];
-  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
-  Simulator simulator(study.truth, study.readout);
-  Simulation sim;
-  simulator.begin(timeline, draw, study.monte_carlo.seed, run_number, sim);
-  Ekf ekf(filter, timeline, study.readout, start);
-  for (std::size_t first = 0; first < timeline.intervals.size();) {
-    std::size_t end = first;
-    while (end < timeline.intervals.size() &&
-           timeline.intervals[end].position == timeline.intervals[first].position)
-      timeline.intervals[end++].loop = ekf.theta().segment<6>(eta);
-    simulator.extend(timeline, first, end, sim);
-    require_ok(sim.ode, run_number);
-    for (std::size_t i = first; i < end; ++i)
-      ekf.process(i, sim.measured.acc.col(i), sim.measured.gimbal.col(i));
-    first = end;
-  }
-  FilterRun run;
-  run.filter = job.filter;
-  run.start = job.start;
-  run.ekf = ekf.result();
-  run.history = ekf.history();
-  fit_by_batch(run, filter, {timeline, study.readout, sim.measured}, start);
-  return run;
 }
 
 std::vector<FilterSummary> summarise(const mc::Study& study, const Identification& id) {
@@ -177,6 +112,8 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
         return run;
       },
       threads);
+  if (!id.test_of_each_start)
+    try_prior_means(study, id, [&](std::size_t f, std::size_t start) { return task({f, start}); });
   id.summaries = summarise(study, id);
 }
 

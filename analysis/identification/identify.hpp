@@ -20,7 +20,7 @@ namespace drift::identification {
 /// One filter from one start, by both estimators.
 struct FilterRun {
   std::size_t filter = 0;  ///< index in the study
-  std::size_t start = 0;
+  std::size_t start = 0;   ///< start_count() of the filter: the prior mean, tried after the drawn
   EstimateResult ekf;
   EkfHistory history;
   BatchResult batch;

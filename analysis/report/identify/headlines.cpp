@@ -5,6 +5,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/axis_scale.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/estimate/starts.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/stats/chi_square_band.hpp"
 #include "core/stats/normal.hpp"
@@ -63,9 +64,11 @@ std::string counted_sentence(const FilterView& v) {
                     agreeing = v.summary.agreeing_starts;
   if (starts < 2 || agreeing == 0) return "";
   const std::size_t start = v.id.counted(v.summary).start;
+  const bool mean = start == start_count(v.spec());
   const std::string_view what = drift_varies(v.spec()) ? "EKF" : "batch fit";
   return fmt::format(
-      "start {} counts, {}; {} of {} starts end{} there within their sigmas.", start + 1,
+      "start {}{} counts, {}; {} of {} starts end{} there within their sigmas.", start + 1,
+      mean ? ", the prior mean, tried as no drawn one fits," : "",
       v.id.test_of_each_start
           ? fmt::format("the first whose {} converged (each has a test of its own)", what)
           : fmt::format("the {} of least chi-square of those that converged", what),

@@ -89,6 +89,22 @@ TEST(CountedStart, IsOneThatFitsWhereTheFirstEndsElsewhere) {
   EXPECT_NE(html.find("Posterior correlations, batch fit from start 2."), std::string::npos);
 }
 
+TEST(CountedStart, IsThePriorMeanWhereNoDrawnOneFits) {
+  // Drawn with 10 000 deg/h the platform turns over within a sample.
+  const Identified of{study("2", "10000")};
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_FALSE(identification::fits(of.id.runs[k].batch.estimate)) << k;
+  ASSERT_EQ(of.id.runs.size(), 3u);
+  EXPECT_EQ(of.counted().start, 2u);
+  for (const ParameterEstimate& p : of.counted().batch.estimate.parameters)
+    EXPECT_EQ(p.start, p.prior_mean);
+  EXPECT_EQ(of.brief().verdict.find("Fits"), 0u) << of.brief().verdict;
+  EXPECT_NE(of.more().find("start 3, the prior mean, tried as no drawn one fits, counts"),
+            std::string::npos)
+      << of.more();
+  EXPECT_EQ(of.json()["counted_start"], 3);
+}
+
 TEST(CountedStart, NothingChangesWithOneThatFits) {
   const Identified one{study("1", "2")}, three{study("3", "2")};
   ASSERT_EQ(one.id.runs.size(), 1u);

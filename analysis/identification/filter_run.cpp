@@ -1,0 +1,81 @@
+#include "analysis/identification/filter_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/check.hpp"
+#include "core/estimate/closure/closure_posterior.hpp"
+#include "core/estimate/starts.hpp"
+
+namespace drift::identification {
+namespace {
+
+/// Where a job starts: as the study says, and beyond its starts at the prior mean.
+Theta start_of(const mc::Study& study, const Job& job) {
+  const FilterSpec& filter = study.filters[job.filter];
+  return job.start < start_count(filter)
+             ? initial_estimate(filter, study.monte_carlo.seed, job.start)
+             : make_layout(filter).theta;
+}
+
+void fit_by_batch(FilterRun& run, const FilterSpec& filter, const MeasuredTest& test,
+                  const Theta& start) {
+  run.batch = fit_batch(filter, test, start);
+  run.memory_doubt = memory_doubt(filter, run.batch, test.timeline);
+  run.batch.estimate = over_closure(filter, test, run.batch);
+}
+
+}  // namespace
+
+FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timeline,
+                   const Measurements& measured) {
+  const FilterSpec& filter = study.filters[job.filter];
+  const Theta start = start_of(study, job);
+  FilterRun run;
+  run.filter = job.filter;
+  run.start = job.start;
+  run.ekf = run_ekf(filter, {timeline, study.readout, measured}, start, &run.history);
+  fit_by_batch(run, filter, {timeline, study.readout, measured}, start);
+  for (EstimateResult* result : {&run.ekf, &run.batch.estimate})
+    result->noise_at_most = study.readout.accelerometers_rounded || study.readout.gimbals_rounded;
+  return run;
+}
+
+void require_ok(const OdeResult& ode, std::uint64_t run) {
+  if (!ode.ok())
+    throw InputError(
+        ExitCode::self_check,
+        fmt::format("simulation of run {} failed at t = {:.6g} s: {} ({}). The truth may be "
+                    "unphysical: see `driftscope check`",
+                    run, ode.t, name(ode.status), ode.cause));
+}
+
+FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline timeline,
+                               const TruthDraw& draw, std::uint64_t run_number) {
+  constexpr auto eta = TermLibrary::index("eta_x");
+  const FilterSpec& filter = study.filters[job.filter];
+  const Theta start = initial_estimate(filter, study.monte_carlo.seed, job.start);
+  Simulator simulator(study.truth, study.readout);
+  Simulation sim;
+  simulator.begin(timeline, draw, study.monte_carlo.seed, run_number, sim);
+  Ekf ekf(filter, timeline, study.readout, start);
+  for (std::size_t first = 0; first < timeline.intervals.size();) {
+    std::size_t end = first;
+    while (end < timeline.intervals.size() &&
+           timeline.intervals[end].position == timeline.intervals[first].position)
+      timeline.intervals[end++].loop = ekf.theta().segment<6>(eta);
+    simulator.extend(timeline, first, end, sim);
+    require_ok(sim.ode, run_number);
+    for (std::size_t i = first; i < end; ++i)
+      ekf.process(i, sim.measured.acc.col(i), sim.measured.gimbal.col(i));
+    first = end;
+  }
+  FilterRun run;
+  run.filter = job.filter;
+  run.start = job.start;
+  run.ekf = ekf.result();
+  run.history = ekf.history();
+  fit_by_batch(run, filter, {timeline, study.readout, sim.measured}, start);
+  return run;
+}
+
+}  // namespace drift::identification
