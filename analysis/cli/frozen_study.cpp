@@ -89,8 +89,12 @@ FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reade
   return frozen;
 }
 
+bool study_file_is_whole(const std::string& folder, const mc::Manifest& manifest) {
+  return read_frozen(folder, manifest, {}).study.has_value();
+}
+
 std::string mend_study(const std::string& folder, const mc::Manifest& manifest) {
-  if (read_frozen(folder, manifest, {}).study) return {};
+  if (study_file_is_whole(folder, manifest)) return {};
   return mc::restore_study(folder, manifest.study);
 }
 

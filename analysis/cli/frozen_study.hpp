@@ -24,6 +24,10 @@ struct FrozenStudy {
 FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reader,
                          const StudyProgram& program);
 
+/// Whether study.toml of a folder is that of the study, or not there. InputError (io) if it cannot
+/// be read.
+bool study_file_is_whole(const std::string& folder, const mc::Manifest& manifest);
+
 /// Puts back a study.toml that is damaged or changed in a folder that was just claimed with this
 /// manifest; the name under which what was there is kept, empty if all is well.
 std::string mend_study(const std::string& folder, const mc::Manifest& manifest);

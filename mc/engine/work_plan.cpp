@@ -14,7 +14,7 @@ std::vector<std::uint64_t> WorkPlan::own(const std::vector<std::uint64_t>& block
   const WorkerShare share = ranks_.size() > 1 ? WorkerShare{} : options_.share;
   std::vector<std::uint64_t> mine;
   for (const std::uint64_t i : blocks)
-    if (i % share.count == share.index) mine.push_back(i);
+    if (share.has(i)) mine.push_back(i);
   return mine;
 }
 

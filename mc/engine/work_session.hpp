@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace drift::mc {
 /// does not depend on when the worker starts, so that nothing falls between two workers.
 struct WorkerShare {
   std::size_t index = 0, count = 1;
+  bool has(std::uint64_t job) const { return job % count == index; }
 };
 
 /// The numbers of a worker's part of n jobs.

@@ -176,6 +176,15 @@ void claim_folder(const std::string& folder, const Manifest& manifest) {
   }
 }
 
+bool require_claimable(const std::string& folder, const Manifest& manifest) {
+  const bool begun = std::filesystem::exists(folder + "/manifest.json");
+  if (begun)
+    require_same_study(folder, manifest);
+  else
+    require_same_origin(folder, manifest);
+  return begun;
+}
+
 void note_finished(const std::string& folder, std::uint64_t runs) {
   raise(folder, runs, runs);
 }

@@ -57,6 +57,10 @@ Manifest make_manifest(StudyIdentity identity, std::string study,
 /// workers may call it at the same time.
 void claim_folder(const std::string& folder, const Manifest& manifest);
 
+/// Refuses what claim_folder() would, and writes nothing; a folder that is not there is nobody's.
+/// Whether it holds a study, which is then the same.
+bool require_claimable(const std::string& folder, const Manifest& manifest);
+
 /// Notes in the manifest that `runs` runs of every study point are complete.
 void note_finished(const std::string& folder, std::uint64_t runs);
 

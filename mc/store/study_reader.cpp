@@ -1,6 +1,7 @@
 #include "mc/store/study_reader.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/base/check.hpp"
 #include "mc/store/open_files.hpp"
@@ -8,11 +9,27 @@
 
 namespace drift::mc {
 
+namespace {
+
+/// By the manifest: closing a worker file would drop what locks this process has on it. Where there
+/// is none, nobody is at work.
+Locks locks_of(const std::string& folder) {
+  const std::string manifest = folder + "/manifest.json";
+  if (std::filesystem::exists(manifest)) return probe_locks(manifest);
+  const std::vector<std::string> files = worker_files(folder);
+  return files.empty() ? Locks::kernel : probe_locks(files.front());
+}
+
+}  // namespace
+
 StudyReader::StudyReader(const std::string& folder)
+    : StudyReader(folder, std::make_shared<Manifest>(read_manifest(folder))) {}
+
+StudyReader::StudyReader(const std::string& folder, std::shared_ptr<const Manifest> manifest)
     : folder_(folder),
-      manifest_(std::make_shared<Manifest>(read_manifest(folder))),
+      manifest_(std::move(manifest)),
       asked_(manifest_->runs),
-      locks_(probe_locks(folder + "/manifest.json")) {
+      locks_(locks_of(folder)) {
   allow_many_files();
   refresh();
 }

@@ -21,6 +21,9 @@ class StudyReader {
   /// InputError (store) if the folder holds no study. Damaged files and blocks are left out;
   /// notes() names them.
   explicit StudyReader(const std::string& folder);
+  /// The same by a manifest that the folder, which may be empty or not there, has lost or not got
+  /// yet.
+  StudyReader(const std::string& folder, std::shared_ptr<const Manifest> manifest);
 
   const Manifest& manifest() const { return *manifest_; }
   /// Runs per study point: the most that any session was asked for, by its worker file or the

@@ -76,6 +76,21 @@ std::string own_text() {
                          "ended, remove this file and run the same command again"));
 }
 
+/// Locks the file of a worker by the kernel, for as long as it stays open; false where the kernel
+/// cannot. InputError (store) if another process has it locked after `patience` [s].
+bool lock_by_kernel(int fd, const std::string& path, double patience) {
+  for (int i = 0; ::flock(fd, LOCK_EX | LOCK_NB) != 0; ++i) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return false;
+    if (i >= tries_in(patience))
+      throw InputError(ExitCode::store,
+                       fmt::format("{}: another process is at work as this worker (expected one "
+                                   "at a time). Wait for it, or share the work with --worker i/n",
+                                   path));
+    std::this_thread::sleep_for(pause);
+  }
+  return true;
+}
+
 /// Takes away the file of a process that has ended. Of several that try, each moves at most one
 /// file aside; one that was not the stale one is put back.
 void take_over(const std::string& holder, const std::string& stale) {
@@ -111,19 +126,7 @@ WorkerLock::WorkerLock(const std::string& worker_file, double patience)
   if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
   try {
     locks_ = probe_locks(path);
-    bool alone = true;
-    for (int i = 0; ::flock(fd_, LOCK_EX | LOCK_NB) != 0; ++i) {
-      if (errno != EWOULDBLOCK && errno != EINTR) {
-        alone = false;
-        break;
-      }
-      if (i >= tries_in(patience))
-        throw InputError(ExitCode::store,
-                         fmt::format("{}: another process is at work as this worker (expected one "
-                                     "at a time). Wait for it, or share the work with --worker i/n",
-                                     path));
-      std::this_thread::sleep_for(pause);
-    }
+    const bool alone = lock_by_kernel(fd_, path, patience);
     // One that stands was made where the same folder has no locks: it counts here too.
     if (!alone || locks_ == Locks::none || fs::exists(holder_)) hold(patience);
   } catch (...) {
@@ -155,6 +158,23 @@ void WorkerLock::hold(double patience) {
 WorkerLock::~WorkerLock() {
   if (!held_.empty() && text_in(holder_) == held_) ::unlink(holder_.c_str());
   ::close(fd_);
+}
+
+void require_no_other(const std::string& worker_file, double patience) {
+  const std::string path = stem_of(worker_file) + ".lock", holder = holder_of(worker_file);
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (fd < 0) return;  // there was none yet, or whoever opens it in earnest says why not
+  try {
+    lock_by_kernel(fd, path, patience);
+  } catch (...) {
+    ::close(fd);
+    throw;
+  }
+  ::close(fd);
+  for (int i = 0; is_held(worker_file); ++i) {
+    if (i >= tries_in(patience)) refuse(holder, text_in(holder));
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 bool is_held(const std::string& worker_file) {

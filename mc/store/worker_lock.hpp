@@ -41,6 +41,10 @@ class WorkerLock {
   std::string held_;  ///< what this process wrote into the holder's file; empty: it made none
 };
 
+/// InputError (store), as of WorkerLock, if another process is at work as this worker after
+/// `patience` [s]. Makes no file and keeps nobody out.
+void require_no_other(const std::string& worker_file, double patience);
+
 /// Whether a process that may be at work holds the file of a worker without the kernel's locks.
 bool is_held(const std::string& worker_file);
 

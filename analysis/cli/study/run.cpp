@@ -1,13 +1,13 @@
-#include <chrono>
 #include <filesystem>
-#include <limits>
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/sharing.hpp"
+#include "analysis/cli/study/dry_run.hpp"
 #include "analysis/cli/study/run_progress.hpp"
+#include "analysis/cli/study/run_words.hpp"
 #include "analysis/cli/study/whole_results.hpp"
 #include "analysis/cli/study_program.hpp"
 #include "analysis/report/study/truth_memory.hpp"
@@ -33,45 +33,6 @@ std::string default_folder(const std::string& config) {
   return "results/" + std::filesystem::path(config).stem().string();
 }
 
-/// Says what a run would take, from some runs tried in memory.
-void dry_run(const mc::StudyWork& work, const mc::Manifest& manifest,
-             const mc::EngineOptions& options, const std::string& folder) {
-  constexpr std::size_t most_probes = 32;
-  constexpr double most_seconds = 5.0;
-  const auto blocks = mc::all_blocks(manifest, options.runs).size();
-  double bytes = 0.0;
-  for (const mc::PointInfo& p : manifest.points)
-    bytes +=
-        static_cast<double>(options.runs) * (1.0 + 8.0 * static_cast<double>(p.columns.size()));
-  const auto started = std::chrono::steady_clock::now();
-  double seconds = 0.0;
-  std::size_t probes = 0;
-  for (; probes < most_probes && seconds < most_seconds; ++probes) {
-    const std::size_t p = probes % work.points.size();
-    std::vector<double> row(manifest.points[p].columns.size(),
-                            std::numeric_limits<double>::quiet_NaN());
-    work.points[p].task->worker()->execute(probes / work.points.size(), row);
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  }
-  const int threads = options.threads > 0 ? options.threads : mc::usual_threads();
-  const double runs = static_cast<double>(options.runs) * static_cast<double>(work.points.size());
-  const double each = seconds / static_cast<double>(probes);
-  show(
-      "folder           {}\nstudy points     {}\nruns             {} ({} per point, in {} blocks "
-      "of {})\n"
-      "numbers per run  {}\nestimated time   {} with {} threads ({:.3g} s per run, {} runs tried)\n"
-      "disk             {:.3g} MB\nNothing was written.\n",
-      folder, work.points.size(), static_cast<std::uint64_t>(runs), options.runs, blocks,
-      manifest.identity.block_size, manifest.points.front().columns.size(),
-      duration_text(runs * each / threads), threads, each, probes, 1.1 * bytes / 1e6);
-  for (std::size_t p = 0; p < work.points.size(); ++p)
-    if (!work.points[p].label.empty()) show("point {:<4} {}\n", p, work.points[p].label);
-}
-
-std::string blocks_text(std::size_t n) {
-  return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n);
-}
-
 bool stopped(const mc::StudyOutcome& o) {
   return o.code == ExitCode::interrupted || o.code == ExitCode::terminated;
 }
@@ -94,17 +55,10 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
     say("{}: {} of the runs stored before were in blocks that the shorter study ended within; they "
         "were executed again with the rest of their blocks\n",
         folder, o.cut_short);
-  if (o.stored_runs > asked.runs)
-    say("{}: note: {} runs per point were asked for before, {} now; the results are those "
-        "of all that is stored. "
-        "Choose another folder for a shorter study\n",
-        folder, o.stored_runs, asked.runs);
+  say_asked_before(folder, o.stored_runs, asked.runs);
   if (!o.complete && o.missing_own > 0)
     say("{}: missing: {}{}. The same command goes on with them\n", folder,
-        blocks_text(o.missing_own),
-        asked.share.count > 1
-            ? fmt::format(" of this worker's part {}/{}", asked.share.index, asked.share.count)
-            : "");
+        blocks_text(o.missing_own), part_text(asked.share));
   if (!o.complete && o.missing > o.missing_own)
     say("{}: missing: {} of the other workers' parts. They, or `run` without --worker, go "
         "on with them\n",
@@ -131,17 +85,6 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
         count - most, folder);
 }
 
-/// Per point, where the command does not say: what an extension asked for that was broken off.
-std::uint64_t runs_to_go_on_to(const std::string& folder, std::uint64_t of_study, bool tells) {
-  const std::uint64_t before = mc::read_manifest(folder).runs;
-  if (before <= of_study) return of_study;
-  if (tells)
-    say("{}: note: {} runs per point were asked for before, {} in the study file; it goes on with "
-        "the {}. For fewer give --runs\n",
-        folder, before, of_study, before);
-  return before;
-}
-
 ExitCode run(const StudyArguments& arguments, const RunArguments& given,
              const StudyProgram& program) {
   mc::Overrides overrides = arguments.overrides();
@@ -158,10 +101,6 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
   manifest.runs = options.runs;
   const std::string folder = given.folder.empty() ? default_folder(arguments.config) : given.folder;
-  if (given.dry_run) {
-    dry_run(work, manifest, options, folder);
-    return ExitCode::ok;
-  }
   mc::Ranks ranks;
   if (ranks.size() > 1 && !given.sharing.worker.empty())
     throw InputError(ExitCode::usage,
@@ -173,6 +112,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
         "mpirun "
         "of Open MPI or srun --mpi=pmix");
   require_results_folder({folder, "run"});
+  if (given.dry_run) return dry_run({work, manifest, folder, !given.runs}, options, ranks);
   mc::claim_folder(folder, manifest);
   if (!given.runs) options.runs = runs_to_go_on_to(folder, options.runs, ranks.leader());
   begin_results({folder, "run"});

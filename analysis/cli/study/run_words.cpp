@@ -1,0 +1,34 @@
+#include "analysis/cli/study/run_words.hpp"
+
+#include "analysis/cli/print.hpp"
+#include "mc/store/manifest.hpp"
+
+namespace drift::cli {
+
+std::string blocks_text(std::size_t n) {
+  return n == 1 ? "1 block of runs" : fmt::format("{} blocks of runs", n);
+}
+
+std::string part_text(const mc::WorkerShare& share) {
+  return share.count > 1 ? fmt::format(" of this worker's part {}/{}", share.index, share.count)
+                         : "";
+}
+
+void say_asked_before(const std::string& folder, std::uint64_t before, std::uint64_t now) {
+  if (before <= now) return;
+  say("{}: note: {} runs per point were asked for before, {} now; the results are those of all "
+      "that is stored. Choose another folder for a shorter study\n",
+      folder, before, now);
+}
+
+std::uint64_t runs_to_go_on_to(const std::string& folder, std::uint64_t of_study, bool tells) {
+  const std::uint64_t before = mc::read_manifest(folder).runs;
+  if (before <= of_study) return of_study;
+  if (tells)
+    say("{}: note: {} runs per point were asked for before, {} in the study file; it goes on with "
+        "the {}. For fewer give --runs\n",
+        folder, before, of_study, before);
+  return before;
+}
+
+}  // namespace drift::cli

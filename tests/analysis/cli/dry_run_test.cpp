@@ -1,0 +1,133 @@
+// What `run --dry-run` says of a folder, against what the run itself then does there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "mc/store/worker_lock.hpp"
+#include "tests/support/synthetic.hpp"
+
+namespace drift::dry_run_test {
+namespace {
+
+using test::Answer;
+using test::expect_says;
+using test::ScratchFolder;
+using test::synthetic;
+namespace fs = std::filesystem;
+
+/// 200 runs of one point, in blocks of 64, 64, 64 and 8.
+std::string study_file(const ScratchFolder& scratch) {
+  return scratch.write(
+      "study.toml",
+      "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = \"six\"\n[truth]\n"
+      "coupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\ncoupling = \"eq5\"\n"
+      "[monte_carlo]\nruns = 200\nseed = 7\nallowed_failures = 99\n");
+}
+
+/// Every file of a folder.
+std::map<std::string, std::string> content(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    files[entry.path().filename().string()] = test::text_of(entry.path().string());
+  return files;
+}
+
+/// A dry run, which must leave the folder as it is.
+Answer dry(const std::string& line, const std::string& folder) {
+  const auto before = content(folder);
+  const Answer answer = synthetic(line + " --dry-run");
+  EXPECT_EQ(content(folder), before);
+  return answer;
+}
+
+TEST(DryRun, WhatIsStoredIsNotToBeExecuted) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), line = "run " + study_file(scratch) + " -o " + out;
+  const Answer fresh = synthetic(line + " --dry-run");
+  EXPECT_EQ(fresh.code, 0) << fresh.err;
+  expect_says(fresh.out, "stored           0 runs\n");
+  expect_says(fresh.out, "to execute       200 runs, 4 blocks of runs\n");
+  ASSERT_EQ(synthetic(line + " --worker 0/2").code, 0);  // the first and the third block
+  const Answer rest = dry(line, out);
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  expect_says(rest.out, "stored           128 runs\n");
+  expect_says(rest.out, "to execute       72 runs, 2 blocks of runs\n");
+  expect_says(dry(line + " --worker 1/2", out).out,
+              "to execute       72 runs, 2 blocks of runs of this worker's part 1/2\n");
+  expect_says(dry(line + " --worker 0/2", out).out,
+              "to execute       nothing, this worker's part is complete; missing besides: 2 blocks "
+              "of runs of the other workers' parts\n");
+  expect_says(synthetic(line).err, "128 runs stored before, 72 executed");
+  expect_says(dry(line, out).out, "to execute       nothing, the study is complete\n");
+}
+
+TEST(DryRun, OfALongerOrShorterStudyItSaysWhatTheRunWould) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), line = "run " + study_file(scratch) + " -o " + out;
+  ASSERT_EQ(synthetic(line).code, 0);
+  const Answer longer = dry(line + " --runs 300", out);
+  expect_says(longer.out,
+              "stored           192 runs; 8 more are in blocks that a shorter study ended within");
+  expect_says(longer.out, "to execute       108 runs, 2 blocks of runs\n");
+  ASSERT_EQ(synthetic(line + " --runs 300").code, 0);
+  const Answer plain = dry(line, out);
+  expect_says(plain.err, "300 runs per point were asked for before, 200 in the study file");
+  expect_says(plain.out, "runs             300 ");
+  expect_says(dry(line + " --runs 20", out).err,
+              "300 runs per point were asked for before, 20 now");
+}
+
+TEST(DryRun, WhatTheRunRefusesItRefusesInTheSameWords) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), line = "run " + study_file(scratch) + " -o " + out;
+  ASSERT_EQ(synthetic(line).code, 0);
+  const auto same = [&](const std::string& command, int code, const std::string& says) {
+    const Answer said = synthetic(command + " --dry-run"), done = synthetic(command);
+    EXPECT_EQ(said.code, code) << command;
+    EXPECT_EQ(done.code, code) << command;
+    EXPECT_EQ(said.err, done.err);
+    expect_says(said.err, says);
+  };
+  same(line + " --seed 8", 7, "the folder holds another study");
+  same(line + " --worker 4/4", 2, "--worker 4/4");
+  const std::string manifest = test::text_of(out + "/manifest.json");
+  std::ofstream(out + "/manifest.json") << manifest.substr(0, manifest.size() / 2);
+  same(line, 7, "manifest.json: damaged");
+  fs::remove(out + "/manifest.json");
+  same(line + " --seed 8", 7, "holds results of another study");
+  const std::string others = scratch.file("others");
+  fs::create_directory(others);
+  std::ofstream(others + "/report.html") << "mine";
+  same("run " + study_file(scratch) + " -o " + others, 7, "which driftscope did not write");
+}
+
+TEST(DryRun, DamageIsNotCountedAsStored) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), line = "run " + study_file(scratch) + " -o " + out;
+  ASSERT_EQ(synthetic(line).code, 0);
+  std::ofstream(out + "/worker-0000.sqlite") << "no database";
+  std::ofstream(out + "/study.toml") << "title = 3\n";
+  const Answer damaged = dry(line, out);
+  EXPECT_EQ(damaged.code, 0) << damaged.err;
+  expect_says(damaged.err, "worker-0000.sqlite: damaged, cannot be read");
+  expect_says(damaged.err, "study.toml is not that of the study: it would be written anew");
+  expect_says(damaged.out, "to execute       200 runs, 4 blocks of runs\n");
+}
+
+TEST(DryRun, AWorkerAtWorkKeepsOthersOutAndIsNotDisturbed) {
+  const ScratchFolder scratch;
+  const std::string file = scratch.file("worker-0000.sqlite");
+  EXPECT_NO_THROW(mc::require_no_other(file, 0.0));
+  EXPECT_TRUE(fs::is_empty(scratch.path()));
+  {
+    const mc::WorkerLock at_work(file, 0.0);
+    EXPECT_THROW(mc::require_no_other(file, 0.0), InputError);
+  }
+  EXPECT_NO_THROW(mc::require_no_other(file, 0.0));
+  EXPECT_NO_THROW(mc::WorkerLock(file, 0.0));
+}
+
+}  // namespace
+}  // namespace drift::dry_run_test
