@@ -163,6 +163,8 @@ Section rate_course(const StudyResults& results) {
     chart.panels.push_back(std::move(panel));
   }
   if (chart.panels.empty()) return {};
+  if (const std::string rest = not_pictured_text(results); !rest.empty())
+    said.items.push_back(rest);
   return {
       "Are these runs enough?",
       {figure_of(chart,

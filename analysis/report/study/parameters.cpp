@@ -79,13 +79,9 @@ Table parameter_table(const StudyResults& results, const Pair& pair) {
 /// Of the pictured points the right filter; the first where none is right.
 Section ranking(const StudyResults& results) {
   Section section{"Ranking by Monte Carlo", {}, On::page};
-  const auto pictured = pictured_points(results);
-  if (pictured.size() < results.points.size())
-    section.add({Paragraph{
-        fmt::format("From here on there are pictures of {} of the {} study points, from the "
-                    "first to the last. Numbers of all are in summary.json.",
-                    pictured.size(), results.points.size())}});
-  for (const std::size_t p : pictured) {
+  if (const std::string rest = not_pictured_text(results); !rest.empty())
+    section.add({Paragraph{rest}});
+  for (const std::size_t p : pictured_points(results)) {
     Pair best{p, 0};
     for (std::size_t f = results.statistics[p].filters().size(); f-- > 0;)
       if (matched(results, {p, f})) best.filter = f;

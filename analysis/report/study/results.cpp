@@ -81,13 +81,44 @@ std::string condition_of(const mc::StudyPoint& point) {
   return text;
 }
 
+namespace {
+
+/// Of filters from their first start; the first of several.
+std::size_t most_silent_point(const StudyResults& results) {
+  std::size_t worst = 0;
+  double most = -1.0;
+  for (const Pair& pair : pairs_of(results)) {
+    const stats::Rate& silent = statistics_of(results, pair).starts().front().silent;
+    if (silent.of == 0 || !(silent.value() > most)) continue;
+    most = silent.value();
+    worst = pair.point;
+  }
+  return worst;
+}
+
+}  // namespace
+
 std::vector<std::size_t> pictured_points(const StudyResults& results) {
   constexpr std::size_t most = 4;
   const std::size_t n = results.statistics.size();
   std::vector<std::size_t> points;
   for (std::size_t k = 0; k < std::min(n, most); ++k)
     points.push_back(n <= most ? k : k * (n - 1) / (most - 1));
+  if (n <= most) return points;
+  const std::size_t worst = most_silent_point(results);
+  const auto at = std::ranges::lower_bound(points, worst);
+  if (at == points.end() || *at != worst) points.insert(at, worst);
   return points;
+}
+
+std::string not_pictured_text(const StudyResults& results) {
+  const std::size_t all = results.points.size(), shown = pictured_points(results).size();
+  if (shown >= all) return "";
+  return fmt::format(
+      "Pictures are of {} of the {} study points: some from the first to the last, and the one "
+      "with the most silent failures ({}). {} not shown; numbers of all are in summary.json.",
+      shown, all, name_of(results, most_silent_point(results)),
+      all - shown == 1 ? "One is" : fmt::format("{} are", all - shown));
 }
 
 std::string name_of(const StudyResults& results, std::size_t point) {

@@ -59,8 +59,11 @@ std::vector<std::string> broken_terms(const StudyResults& results);
 /// What tells a point from the others besides the truth's coupling: "plan.preset = six"; or empty.
 std::string condition_of(const mc::StudyPoint& point);
 
-/// The study points that pictures are drawn of: all, or four from the first to the last.
+/// The study points that pictures are drawn of: all, or four from the first to the last and, where
+/// it is none of them, the one at which some filter fails silently most often.
 std::vector<std::size_t> pictured_points(const StudyResults& results);
+/// Which these are and how many are left out; empty if none.
+std::string not_pictured_text(const StudyResults& results);
 
 /// "truth eq5, plan.preset = six" of a point; "eq5 > legacy, plan.preset = six" of a pair.
 std::string name_of(const StudyResults& results, std::size_t point);

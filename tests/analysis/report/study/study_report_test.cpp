@@ -201,6 +201,29 @@ TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
   EXPECT_TRUE(json["points"][0]["filters"][1]["parameters"][0]["start_consistency"].is_null());
 }
 
+/// Of seven points the pictures would be those of 0, 2, 4 and 6. A filter on the wrong equation
+/// notices a misalignment of 200 arcsec, and not one of 1 arcsec, that of point 5.
+TEST(StudyReport, TheWorstPointIsShownAndHowManyAreNot) {
+  const report::StudyResults results =
+      results_of(small_study +
+                     "[sweep]\n\"truth.parameters.eta\" = [\"200 arcsec\", \"210 arcsec\", \"220 "
+                     "arcsec\", \"230 arcsec\", \"240 arcsec\", \"1 arcsec\", \"250 arcsec\"]\n",
+                 8);
+  for (std::size_t p = 0; p < 7; ++p)
+    EXPECT_EQ(report::statistics_of(results, {p, 1}).starts().front().silent.hits > 0, p == 5) << p;
+  EXPECT_EQ(report::pictured_points(results), (std::vector<std::size_t>{0, 2, 4, 5, 6}));
+  const report::Section course = report::rate_course(results);
+  ASSERT_EQ(course.blocks.size(), 2u);
+  const auto& said = std::get<report::Sentences>(course.blocks[1].content).items;
+  ASSERT_EQ(said.size(), 11u);  // two filters at five points, and what is not shown
+  EXPECT_NE(said[7].find("truth.parameters.eta = 1 arcsec, filter wrong: "), std::string::npos)
+      << said[7];
+  EXPECT_NE(said[10].find("of 5 of the 7 study points"), std::string::npos) << said[10];
+  EXPECT_NE(said[10].find("truth.parameters.eta = 1 arcsec). 2 are not shown"), std::string::npos)
+      << said[10];
+  EXPECT_EQ(report::not_pictured_text(swept()), "");
+}
+
 TEST(StudyReport, WritesItsFiles) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("driftscope_report_" + std::to_string(::getpid()));
