@@ -7,6 +7,7 @@
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -158,13 +159,33 @@ def points_of_different_lengths_are_padded():
         status = ds.status.isel(point=point).values
         assert (status[:runs] == 0).all() and (status[runs:] == -1).all()
         assert ds.nis.isel(point=point).sel(filter="eq6", start=1).notnull().sum() == runs
-    # Goes on after the export: said.
     ds.close()
-    os.utime("uneven/worker-0000.sqlite", (4e9, 4e9))
+    assert not warnings_of("uneven")
+
+
+def warnings_of(folder, group=None):
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        driftscope.open("uneven").close()
-    assert any("Export again" in str(w.message) for w in said)
+        driftscope.open(folder, group).close()
+    return [str(w.message) for w in said if "Export again" in str(w.message)]
+
+
+def an_export_is_outdated_by_what_is_stored():
+    """And not by the times of files: a copy has others."""
+    Path("grown.toml").write_text(study, encoding="utf-8")
+    run("run", "grown.toml", "-o", "grown it's")
+    run("export", "grown it's", "--format", "netcdf")
+    run("run", "grown.toml", "-o", "grown it's")  # a session more, and no run
+    os.utime("grown it's/worker-0000.sqlite", (4e9, 4e9))
+    assert not warnings_of("grown it's") and not warnings_of("grown it's", "statistics")
+    run("run", "grown.toml", "--runs", "140", "-o", "grown it's")
+    os.utime("grown it's/export.nc", (4e9, 4e9))
+    for group in (None, "statistics"):
+        said = warnings_of("grown it's", group)
+        assert len(said) == 1 and "when 280 runs were stored, now there are 560" in said[0], said
+        assert "driftscope export 'grown it'\"'\"'s' --format netcdf" in said[0], said
+    shutil.copy("out/export.nc", "uneven/export.nc")
+    assert any("of another study" in text for text in warnings_of("uneven"))
 
 
 def an_identification_agrees_with_itself():
@@ -228,7 +249,7 @@ def chapter_is_true():
     assert said.returncode == 0, said.stderr
 
 
-for test in (exports_agree, points_of_different_lengths_are_padded, an_identification_agrees_with_itself, errors_say_what_to_do,
+for test in (exports_agree, points_of_different_lengths_are_padded, an_export_is_outdated_by_what_is_stored, an_identification_agrees_with_itself, errors_say_what_to_do,
              notebooks_run, chapter_is_true):
     test()
     print(f"{test.__name__}: ok", flush=True)

@@ -9,11 +9,15 @@
 xarray (with netCDF4 or h5netcdf) and pandas are imported where they are needed.
 """
 
+import contextlib
 import importlib
 import json
 import os
+import shlex
+import sqlite3
 import warnings
 from pathlib import Path
+from urllib.parse import quote
 
 __all__ = ["DriftscopeError", "Diagnosis", "command_of", "covariance", "diagnosis", "estimates", "open",
            "recording", "residuals", "summary"]
@@ -67,15 +71,46 @@ def command_of(folder):
     raise DriftscopeError(f"{folder}: holds no results (expected a folder that driftscope wrote with -o)")
 
 
+def _export_command(folder):
+    return f"driftscope export {shlex.quote(str(folder))} --format netcdf"
+
+
 def _export_of_study(folder):
     path = folder / "export.nc"
-    make = f"driftscope export {folder} --format netcdf"
     if not path.is_file():
-        raise DriftscopeError(f"{folder}: the study is not exported (expected export.nc). Make it with: {make}")
-    if any(worker.stat().st_mtime > path.stat().st_mtime for worker in folder.glob("worker-*.sqlite")):
-        warnings.warn(f"{folder}: runs were stored after export.nc was written. Export again: {make}",
-                      stacklevel=3)
+        raise DriftscopeError(f"{folder}: the study is not exported (expected export.nc). Make it with: "
+                              f"{_export_command(folder)}")
     return path
+
+
+def _runs_stored(folder):
+    """The runs that the worker files of a study list, each once; None if not all of them can be read here."""
+    blocks = {}
+    try:
+        for worker in folder.glob("worker-*.sqlite"):
+            with contextlib.closing(sqlite3.connect(f"file:{quote(str(worker))}?mode=ro", uri=True)) as file:
+                for point, first, runs in file.execute("SELECT point, first_run, runs FROM blocks"):
+                    blocks[point, first] = max(runs, blocks.get((point, first), 0))
+    except sqlite3.Error:
+        return None
+    return sum(blocks.values())
+
+
+def _warn_if_outdated(folder, facts):
+    """facts: attributes of the export. Says so if it is of another study, or of fewer runs than are stored
+    now; a folder that was copied or looked into is no other one."""
+    try:
+        study = json.loads((folder / "manifest.json").read_text(encoding="utf-8")).get("study_hash")
+    except (OSError, ValueError):
+        study = None
+    stored = _runs_stored(folder) if "runs_stored" in facts else None
+    if study is not None and facts.get("study_hash", study) != study:
+        what = "export.nc is of another study than the folder"
+    elif stored is not None and int(facts["runs_stored"]) != stored:
+        what = f"export.nc was written when {facts['runs_stored']} runs were stored, now there are {stored}"
+    else:
+        return
+    warnings.warn(f"{folder}: {what}. Export again: {_export_command(folder)}", stacklevel=3)
 
 
 def open(path, group=None):
@@ -86,11 +121,11 @@ def open(path, group=None):
     each parameter, "filters" of each start. Numbers stand in the unit of the coordinate parameter_unit, or
     of the attribute `units`. Nothing is read before it is asked for.
     """
-    where = Path(path)
+    where, study = Path(path), None
     if where.is_dir():
         command = command_of(where)
         if command == "run":
-            where = _export_of_study(where)
+            study, where = where, _export_of_study(where)
         elif command == "identify":
             where = _file(where, "identification.nc", "the results of `driftscope identify` on a platform")
         else:
@@ -100,6 +135,9 @@ def open(path, group=None):
         raise DriftscopeError(f"{path}: no such folder or file (expected a results folder, or a .nc file)")
     xarray = _module("xarray", "python3-xarray")
     try:
+        if study is not None:
+            with xarray.open_dataset(where) as root:  # the facts stand beside the groups
+                _warn_if_outdated(study, root.attrs)
         return xarray.open_dataset(where, group=group)
     except OSError as error:
         if group is not None and "group" in str(error):

@@ -104,10 +104,13 @@ std::string plain_name(std::string_view text) {
 
 Facts provenance_of(StudyReader& reader) {
   const Manifest& m = reader.manifest();
+  std::uint64_t stored = 0;
+  for (const BlockKey& key : reader.keys()) stored += key.count;
   Facts facts{{"study_hash", m.hash},
               {"study_sha256", sha256_hex(m.study)},
               {"seed", std::to_string(m.identity.seed)},
               {"runs_per_point", std::to_string(reader.runs())},
+              {"runs_stored", std::to_string(stored)},
               {"block_size", std::to_string(m.identity.block_size)}};
   facts.insert(facts.end(), m.provenance.begin(), m.provenance.end());
   const auto sessions = reader.sessions();

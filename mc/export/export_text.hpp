@@ -38,7 +38,8 @@ std::string study_hash_of_text(const std::string& path);
 const char* name(RunStatus status);
 inline constexpr int num_statuses = 6;
 
-/// Where a folder's results come from: study, its hash, sessions.
+/// Where a folder's results come from: study, its hash, sessions; and how many runs the worker
+/// files list, by which readers of an export know whether more were stored since.
 Facts provenance_of(StudyReader& reader);
 
 }  // namespace drift::mc
