@@ -47,7 +47,7 @@ sample = "4 min"
 coupling = "eq5"
 terms = ["fixed_drift", "D_I", "gyro_misalignment", "K0"]
 [[filter]]
-name = "Köln 5"
+name = "Köln, 5"
 coupling = "eq5"
 terms = ["fixed_drift", "D_I", "gyro_misalignment", "K0"]
 starts = 2
@@ -87,7 +87,7 @@ def exports_agree():
     ds = driftscope.open("out")
     assert ds.estimate.dims == ("point", "run", "filter", "start", "parameter")
     assert dict(ds.sizes) == {"point": 4, "run": 70, "filter": 2, "start": 2, "parameter": 15}, ds.sizes
-    assert list(ds["filter"].values) == ["Köln 5", "eq6"] and list(ds.start.values) == [1, 2]
+    assert list(ds["filter"].values) == ["Köln, 5", "eq6"] and list(ds.start.values) == [1, 2]
     np.testing.assert_allclose(ds.truth_parameters_eta_x.values, [20, 20, 300, 300], rtol=1e-12)
     assert ds.truth_parameters_eta_x.attrs["units"] == "arcsec"
     assert list(ds.truth_coupling.values) == ["eq5", "eq6"] * 2
@@ -206,7 +206,7 @@ def an_identification_agrees_with_itself():
     assert abs(total - ds.chi2.sel(estimator="ekf", filter="eq6", start=1).item()) < 1e-9 * total
     assert np.allclose(residuals[residuals.start == 1]["residual_acc_x [sigma]"].to_numpy(),
                        ds.residual.sel(start=1, channel="acc_x").values.ravel(), equal_nan=True)
-    refuses(lambda: driftscope.covariance("identified", filter="eq7"), "has no filter 'eq7'", "Köln 5, eq6")
+    refuses(lambda: driftscope.covariance("identified", filter="eq7"), "has no filter 'eq7'", "Köln, 5, eq6")
     refuses(lambda: driftscope.open("identified", "statistics"), "has no group 'statistics'")
     refuses(lambda: driftscope.diagnosis("identified"), "holds no diagnosis.json", "driftscope diagnose")
     ds.close()

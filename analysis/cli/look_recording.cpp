@@ -12,6 +12,7 @@
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/recording_files.hpp"
@@ -140,9 +141,10 @@ void show_paste(const std::string& section, const preparation::NoiseCard& card,
 void show_commands(const std::string& path, RecordingKind kind) {
   show(
       "\nThen, with a study file lab.toml that has [plan]{} and a [[filter]]:\n"
-      "  driftscope identify lab.toml '{}'\n"
-      "  driftscope diagnose lab.toml '{}' -o out/lab\n",
-      kind == RecordingKind::strapdown ? " kind = \"strapdown\"" : "", path, path);
+      "  driftscope identify lab.toml {}\n"
+      "  driftscope diagnose lab.toml {} -o out/lab\n",
+      kind == RecordingKind::strapdown ? " kind = \"strapdown\"" : "", shell_word(path),
+      shell_word(path));
 }
 
 ExitCode look_without_study(const std::string& path) {

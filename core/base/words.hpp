@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,41 @@ inline std::string positions_text(const std::vector<int>& numbers) {
     k = end;
   }
   return fmt::format("position{} {}", numbers.size() > 1 ? "s" : "", fmt::join(parts, ", "));
+}
+
+/// A text between single quotes of a shell.
+inline std::string in_shell_quotes(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// A name as one word of a command to be copied into a shell: as it is, or in quotes where it holds
+/// what a shell does not take as it is.
+inline std::string shell_word(std::string_view name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           static_cast<unsigned char>(c) >= 0x80 ||
+           std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
+  };
+  return !name.empty() && std::ranges::all_of(name, is_plain) ? std::string(name)
+                                                              : in_shell_quotes(name);
+}
+
+/// The same of each, a blank between them.
+inline std::string shell_words(const std::vector<std::string>& names) {
+  std::vector<std::string> words;
+  for (const std::string& name : names) words.push_back(shell_word(name));
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+/// A text as a field of CSV by RFC 4180, which reads back as it is. One with # is quoted too: many
+/// readers take what follows for a comment.
+inline std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"#\n\r") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
 }
 
 }  // namespace drift

@@ -13,6 +13,7 @@
 #include "core/base/check.hpp"
 #include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
+#include "core/base/words.hpp"
 #include "mc/export/swept_coordinates.hpp"
 
 namespace drift::mc {
@@ -56,13 +57,10 @@ Facts sealed_provenance(StudyReader& reader) {
 }
 
 /// A field of CSV; what a spreadsheet would take for a formula is made plain text.
-std::string csv_field(std::string text) {
+std::string sheet_field(std::string text) {
   if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
     text.insert(0, "'");
-  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
+  return csv_field(text);
 }
 
 std::string one_line(std::string text) {
@@ -147,13 +145,13 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
   std::vector<std::string> swept_at(points.size());  // the cells of each point
   std::string line = "point,run,status";
   for (const SweptCoordinate& s : swept) {
-    line += "," + csv_field(s.title());
+    line += "," + sheet_field(s.title());
     for (std::size_t p = 0; p < points.size(); ++p)
-      swept_at[p] += "," + (s.numbers.empty() ? csv_field(one_line(s.words[p]))
+      swept_at[p] += "," + (s.numbers.empty() ? sheet_field(one_line(s.words[p]))
                                               : fmt::format("{}", s.numbers[p]));
   }
   for (const Column& c : all)
-    line += "," + csv_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
+    line += "," + sheet_field(fmt::format("{} [{}]", c.name, c.unit.symbol.view()));
   out.put(line + ",t_failed [s],cause\n");
   std::vector<std::string> cells(all.size());
   reader.each_result(rules, [&](const StoredBlock& b) {
@@ -169,7 +167,7 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
              swept_at[b.block.point];
       for (const std::string& cell : cells) line += "," + cell;
       if (failure != b.failures.end() && failure->run == b.block.first + r) {
-        line += fmt::format(",{},{}", failure->t, csv_field(one_line(failure->cause)));
+        line += fmt::format(",{},{}", failure->t, sheet_field(one_line(failure->cause)));
         ++failure;
       } else {
         line += ",nan,";

@@ -19,6 +19,7 @@
 #include "core/base/results/regular_file.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/sha256.hpp"
+#include "core/base/words.hpp"
 #include "mc/store/origin.hpp"
 #include "mc/store/same_study.hpp"
 #include "mc/store/store.hpp"
@@ -210,7 +211,7 @@ Manifest read_manifest(const std::string& folder) {
         fmt::format("{}: there are worker files and no manifest.json (expected one beside them). "
                     "Run the study that they are of with -o {}: it is made anew, and what is "
                     "stored is kept",
-                    folder, folder));
+                    folder, shell_word(folder)));
   if (!text)
     throw InputError(
         ExitCode::store,

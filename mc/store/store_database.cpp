@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/base/check.hpp"
+#include "core/base/words.hpp"
 #include "mc/store/lock_holder.hpp"
 
 namespace drift::mc {
@@ -86,7 +87,7 @@ void fail_half_changed(const std::string& path) {
       fmt::format("{}: the process that wrote it was ended in the middle of a change, which must "
                   "be undone first, and it cannot be written to from here (expected write "
                   "permission, once). Let somebody who has it run `driftscope status {}`",
-                  path, std::filesystem::path(path).parent_path().string()));
+                  path, shell_word(std::filesystem::path(path).parent_path().string())));
 }
 
 [[noreturn]] void fail(sqlite3* db, const std::string& path, int code) {

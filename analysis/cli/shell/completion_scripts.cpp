@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/cli/shell/completion.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::cli {
 namespace {
@@ -11,13 +12,6 @@ std::string names_of(const std::vector<CompletedOption>& options) {
   for (const CompletedOption& o : options)
     names += fmt::format("{}{}", names.empty() ? "" : " ", fmt::join(o.names, " "));
   return names;
-}
-
-/// The text between single quotes of a shell.
-std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 /// zsh ends a description at a bracket and a value's name at a colon.
@@ -35,17 +29,17 @@ std::string zsh_words(std::string_view text) {
 std::string bash_completion(const std::vector<CompletedCommand>& commands) {
   std::string options, values, arguments;
   for (const CompletedCommand& c : commands) {
-    options +=
-        fmt::format("    {}) options={} ;;\n", in_quotes(c.name), in_quotes(names_of(c.options)));
+    options += fmt::format("    {}) options={} ;;\n", in_shell_quotes(c.name),
+                           in_shell_quotes(names_of(c.options)));
     if (!c.values.empty())
-      arguments += fmt::format("    {}) values={} ;;\n", in_quotes(c.name),
-                               in_quotes(fmt::format("{}", fmt::join(c.values, " "))));
+      arguments += fmt::format("    {}) values={} ;;\n", in_shell_quotes(c.name),
+                               in_shell_quotes(fmt::format("{}", fmt::join(c.values, " "))));
     for (const CompletedOption& o : c.options) {
       if (!o.takes_value) continue;
       std::vector<std::string> cases;
-      for (const std::string& name : o.names) cases.push_back(in_quotes(c.name + " " + name));
+      for (const std::string& name : o.names) cases.push_back(in_shell_quotes(c.name + " " + name));
       values += fmt::format("    {}) kind=value values={} ;;\n", fmt::join(cases, "|"),
-                            in_quotes(fmt::format("{}", fmt::join(o.values, " "))));
+                            in_shell_quotes(fmt::format("{}", fmt::join(o.values, " "))));
     }
   }
   return fmt::format(
@@ -94,16 +88,17 @@ std::string zsh_completion(const std::vector<CompletedCommand>& commands) {
               ? ":value:_files"
               : fmt::format(":value:({})", zsh_words(fmt::format("{}", fmt::join(o.values, " "))));
       for (const std::string& name : o.names)
-        specs += fmt::format(" \\\n      {}",
-                             in_quotes(fmt::format("*{}[{}]{}", name, zsh_words(o.what), value)));
+        specs +=
+            fmt::format(" \\\n      {}",
+                        in_shell_quotes(fmt::format("*{}[{}]{}", name, zsh_words(o.what), value)));
     }
     if (c.name.empty()) continue;
-    list += fmt::format("    {}\n", in_quotes(fmt::format("{}:{}", c.name, c.what)));
+    list += fmt::format("    {}\n", in_shell_quotes(fmt::format("{}:{}", c.name, c.what)));
     const std::string rest = c.values.empty()
                                  ? "*:file:_files"
                                  : fmt::format("*:argument:({})", fmt::join(c.values, " "));
     cases += fmt::format("  {})\n    _arguments{} \\\n      {}\n    ;;\n", c.name, specs,
-                         in_quotes(rest));
+                         in_shell_quotes(rest));
   }
   return fmt::format(
       R"(#compdef driftscope
@@ -133,18 +128,18 @@ std::string fish_completion(const std::vector<CompletedCommand>& commands) {
                                             : fmt::format("__fish_seen_subcommand_from {}", c.name);
     if (!c.name.empty())
       out += fmt::format("complete -c driftscope -n __fish_use_subcommand -f -a {} -d {}\n", c.name,
-                         in_quotes(c.what));
+                         in_shell_quotes(c.what));
     if (!c.name.empty() && !c.values.empty())
-      out += fmt::format("complete -c driftscope -n {} -f -a {}\n", in_quotes(when),
-                         in_quotes(fmt::format("{}", fmt::join(c.values, " "))));
+      out += fmt::format("complete -c driftscope -n {} -f -a {}\n", in_shell_quotes(when),
+                         in_shell_quotes(fmt::format("{}", fmt::join(c.values, " "))));
     for (const CompletedOption& o : c.options) {
-      out += fmt::format("complete -c driftscope -n {}", in_quotes(when));
+      out += fmt::format("complete -c driftscope -n {}", in_shell_quotes(when));
       for (const std::string& name : o.names)
         out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       if (o.takes_value && o.values.empty()) out += " -r";
       if (!o.values.empty())
-        out += " -x -a " + in_quotes(fmt::format("{}", fmt::join(o.values, " ")));
-      out += " -d " + in_quotes(o.what) + "\n";
+        out += " -x -a " + in_shell_quotes(fmt::format("{}", fmt::join(o.values, " ")));
+      out += " -d " + in_shell_quotes(o.what) + "\n";
     }
   }
   return out;

@@ -236,19 +236,20 @@ ExitCode make_study(const NewArguments& a) {
   require_readable(told, a);
   write_text_atomically(a.output, text);
   show("{} is written; what needs your numbers has a comment. Then:\n  driftscope check {}\n",
-       a.output, a.output);
+       a.output, shell_word(a.output));
   if (!blanks.empty())
     show(
         "\nNot yet: the recording cannot be read before [recording] is complete, and the positions "
         "are {}.\n{}\nThen this fills in the positions:\n"
-        "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
+        "  driftscope convert {} {} -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
         plan ? "all alike, as many as it names" : "those of a preset", report::wrapped(blanks, 98),
-        a.output, a.recording, a.kind);
+        shell_word(a.output), shell_word(a.recording), a.kind);
   if (plan && !plan->contradiction.empty())
     show(
         "\n{}\n\nThen this fills in the positions:\n"
-        "  driftscope convert {} '{}' -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
-        report::wrapped(plan->contradiction, 98), a.output, a.recording, a.kind);
+        "  driftscope convert {} {} -o read.csv && driftscope new {} read.csv -o NEW.toml\n",
+        report::wrapped(plan->contradiction, 98), shell_word(a.output), shell_word(a.recording),
+        a.kind);
   if (plan)
     for (const std::string& said : {long_dwells_text(*plan), turned_text(*plan)})
       if (!said.empty()) show("\n{}\n", report::wrapped(said, 98));

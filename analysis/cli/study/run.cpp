@@ -12,6 +12,7 @@
 #include "analysis/cli/study_program.hpp"
 #include "analysis/report/study/truth_memory.hpp"
 #include "core/base/results/folder.hpp"
+#include "core/base/words.hpp"
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"
@@ -68,7 +69,7 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
 void say_failed(const std::string& folder, std::size_t point, const mc::Failure& f) {
   say("failed: point {}, run {}: {} at t = {:.6g} s: {}. Look closer: driftscope replay {} --run "
       "{}{}\n",
-      point, f.run, mc::name(f.status), f.t, f.cause, folder, f.run,
+      point, f.run, mc::name(f.status), f.t, f.cause, shell_word(folder), f.run,
       point > 0 ? fmt::format(" --point {}", point) : "");
 }
 
@@ -82,7 +83,7 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
   if (count > most)
     say("failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` "
         "lists all\n",
-        count - most, folder);
+        count - most, shell_word(folder));
 }
 
 ExitCode run(const StudyArguments& arguments, const RunArguments& given,

@@ -1,5 +1,6 @@
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/base/utf8.hpp"
 
 namespace drift::report {
 
@@ -10,10 +11,10 @@ std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& s
       "standard deviation\n";
   for (const auto& s : signals)
     if (const std::string shape = shape_text(s, recordings); !shape.empty())
-      facts += fmt::format("# {} = {}\n", csv_of(s.equation), csv_of(shape));
+      facts += fmt::format("# {} = {}\n", text_of_name(s.equation), text_of_name(shape));
   for (const auto& r : recordings)
-    facts +=
-        fmt::format("# {} = its own time is time [s] less {:.9g}\n", csv_of(r.name), r.offset_s);
+    facts += fmt::format("# {} = its own time is time [s] less {:.9g}\n", text_of_name(r.name),
+                         r.offset_s);
   Table table("", "equation= | time [s]= | position= | value= | sigma= | explained= | unit=");
   if (!recordings.empty()) table.add_columns("recording=");
   const auto at = [](const std::vector<double>& values, std::size_t i) {

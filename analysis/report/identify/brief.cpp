@@ -269,7 +269,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   }
   const bool wrong_study = other_headings(id) != nullptr || other_latitude(id).has_value();
   brief.tone = j.good.empty() || wrong_study ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
-  const std::string file = study.path.empty() ? "STUDY" : study.path;
+  const std::string file = study.path.empty() ? "STUDY" : shell_word(study.path);
   if (!labels.empty())
     brief.next = "Next: correct the numbers of the positions in the recording and identify again.";
   else if (const auto* headings = other_headings(id))
@@ -288,7 +288,7 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     brief.next = fmt::format(
         "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",
         other_latitude(id) ? "correct the latitude by a map; then " : "", file,
-        id.simulated ? "RECORDING" : fmt::format("{}", fmt::join(id.sources, " ")));
+        id.simulated ? "RECORDING" : shell_words(id.sources));
   else if (j.unlearned)
     brief.next = fmt::format(
         "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "

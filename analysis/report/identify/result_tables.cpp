@@ -7,6 +7,7 @@
 #include "analysis/report/page/table.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/nan.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -18,7 +19,7 @@ std::string cell(double value) {
 
 /// The first columns of every table.
 std::string head_of(const NamedResult& r) {
-  return fmt::format("{},{},{},{}", csv_of(r.summary.name), key_of(r.summary.coupling),
+  return fmt::format("{},{},{},{}", csv_field(r.summary.name), key_of(r.summary.coupling),
                      r.run.start + 1, r.estimator);
 }
 
@@ -64,7 +65,7 @@ std::string residuals_csv(const identification::Identification& id) {
   for (const identification::FilterRun& run : id.runs) {
     const identification::FilterSummary& filter = id.summaries[run.filter];
     const std::string head =
-        fmt::format("{},{},{}", csv_of(filter.name), key_of(filter.coupling), run.start + 1);
+        fmt::format("{},{},{}", csv_field(filter.name), key_of(filter.coupling), run.start + 1);
     for (std::size_t i = 0; i < id.samples.size(); ++i) {
       const identification::SampleOfTest& s = id.samples[i];
       fmt::format_to(std::back_inserter(out), "{},{}{},{},{}", head, i, cell(s.t), s.position,

@@ -8,6 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -35,7 +36,7 @@ std::string csv_of(const Value& value) {
     return std::isfinite(*number) ? fmt::format("{:.9g}", *number) : "";
   if (const auto* count = std::get_if<std::int64_t>(&value)) return std::to_string(*count);
   if (const auto* yes = std::get_if<bool>(&value)) return *yes ? "1" : "0";
-  if (const auto* text = std::get_if<std::string>(&value)) return report::csv_of(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return csv_field(*text);
   if (const auto* span = std::get_if<std::vector<double>>(&value))
     return fmt::format("{:.9g}", fmt::join(*span, " "));
   return "";
@@ -106,16 +107,10 @@ Table shown(const Table& table, std::size_t most) {
   return out;
 }
 
-std::string csv_of(std::string text) {
-  for (char& c : text)
-    if (c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return text;
-}
-
 std::string csv_of(const Table& table) {
   std::string head, out;
   for (const Column& column : table.columns)
-    if (!column.key.empty()) head += (head.empty() ? "" : ",") + csv_of(column.key);
+    if (!column.key.empty()) head += (head.empty() ? "" : ",") + csv_field(column.key);
   for (const TableRow& row : table.rows) {
     if (row.heading) continue;
     std::string_view separator = "\n";

@@ -107,7 +107,6 @@ std::string html_of(const Table& table);
 /// The rows with the keys of the columns, comma-separated; what would break a line of it is blank
 /// in text.
 std::string csv_of(const Table& table);
-std::string csv_of(std::string text);
 
 /// Text broken at spaces into lines of at most `width`; all but the first are indented.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent = 0);

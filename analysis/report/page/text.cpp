@@ -1,6 +1,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <sstream>
 
@@ -54,6 +55,10 @@ std::string line_of(const Table& table, const std::vector<std::size_t>& widths,
   return out;
 }
 
+bool is_blank(char c) {
+  return std::isspace(static_cast<unsigned char>(c)) != 0;
+}
+
 struct BlockText {
   std::size_t width;
   std::string operator()(const Paragraph& p) const { return wrapped(p.text, width, 2); }
@@ -67,13 +72,40 @@ struct BlockText {
   std::string operator()(const Figure&) const { return ""; }
 };
 
+/// Where the word ends that a text begins with: at a blank outside of the quotes of a shell, in
+/// which every blank of a name counts; npos where they do not close.
+std::size_t end_of_quoted(std::string_view text) {
+  bool inside = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (!inside && is_blank(text[k])) return k;
+    if (!inside && text[k] == '\\')
+      ++k;
+    else if (text[k] == '\'')
+      inside = !inside;
+  }
+  return inside ? std::string_view::npos : text.size();
+}
+
+/// Takes the next word off a text; empty at its end.
+std::string_view next_word(std::string_view& text) {
+  const auto begin = std::ranges::find_if_not(text, is_blank);
+  text.remove_prefix(static_cast<std::size_t>(begin - text.begin()));
+  auto end = static_cast<std::size_t>(std::ranges::find_if(text, is_blank) - text.begin());
+  if (text.starts_with('\''))
+    if (const std::size_t closed = end_of_quoted(text); closed != std::string_view::npos)
+      end = closed;
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(end);
+  return word;
+}
+
 }  // namespace
 
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
-  std::istringstream words(text);
-  std::string out, word, line;
+  std::string_view rest = text;
+  std::string out, line;
   std::size_t margin = 0;
-  while (words >> word) {
+  for (std::string_view word; !(word = next_word(rest)).empty();) {
     const std::size_t length = display_width(line);
     if (length > margin && length + 1 + display_width(word) > width) {
       out += line + '\n';

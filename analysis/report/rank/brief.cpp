@@ -102,7 +102,7 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
               "the place of the study's plan.preset.";
   } else if (brief.tone == Tone::doubtful) {
     brief.next = fmt::format("Next: driftscope rank {} --improve 3 proposes positions to add.",
-                             study.path.empty() ? "STUDY" : study.path);
+                             study.path.empty() ? "STUDY" : shell_word(study.path));
   }
   return brief;
 }

@@ -11,6 +11,7 @@
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 
@@ -43,8 +44,8 @@ std::string estimates_csv(const CaseIdentification& id) {
   std::string out = "filter,parameter,unit,estimate,sigma,note\n";
   for (const CaseFit& fit : id.fits)
     for (const auto& p : fit.parameters)
-      out += fmt::format("{},{},{},{},{},{}\n", csv_of(fit.name), csv_of(p.key), csv_of(p.unit),
-                         p.value, p.sigma, csv_of(p.note));
+      out += fmt::format("{},{},{},{},{},{}\n", csv_field(fit.name), csv_field(p.key),
+                         csv_field(p.unit), p.value, p.sigma, csv_field(p.note));
   return out;
 }
 

@@ -37,6 +37,14 @@ identification::Identification identification_of(const mc::Study& study) {
   return id;
 }
 
+TEST(ResultTables, ANameWithACommaIsQuotedNotChanged) {
+  const mc::Study study = test::study();
+  identification::Identification id = identification_of(study);
+  id.summaries[0].name = "corrected, \"1962\"";
+  for (const auto& [file, text] : report::result_tables(id))
+    EXPECT_NE(text.find("\n\"corrected, \"\"1962\"\"\",eq5,1,"), std::string::npos) << file;
+}
+
 TEST(ResultTables, HaveARowForEveryFilterStartEstimatorAndParameterInItsUnit) {
   const mc::Study study = test::study();
   const auto tables = report::result_tables(identification_of(study));

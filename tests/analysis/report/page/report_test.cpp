@@ -46,7 +46,7 @@ TEST(OneTable, GivesMachinesNumbersUnderTheirKeys) {
       R"([{"name":"a","size":1.23456,"exact":true},{"name":"b, c","size":null,"exact":null}])");
   EXPECT_EQ(rows_json(sizes(), "exact name").dump(),
             R"([{"exact":true,"name":"a"},{"exact":null,"name":"b, c"}])");
-  EXPECT_EQ(csv_of(sizes()), "name,size,exact\na,1.23456,1\nb  c,,\n");
+  EXPECT_EQ(csv_of(sizes()), "name,size,exact\na,1.23456,1\n\"b, c\",,\n");
 }
 
 TEST(OneTable, HeadingsMayHoldAnEqualsSign) {

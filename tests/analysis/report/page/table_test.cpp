@@ -99,6 +99,15 @@ TEST(Wrapped, LinesStayWithinTheWidth) {
   EXPECT_EQ(all, (std::vector<std::string>{"aaa bbb", "  " + std::string(30, 'x'), "  cc dd"}));
 }
 
+/// A name in the quotes of a shell stays one word, with every blank that is in it.
+TEST(Wrapped, NamesInQuotesAreNotTakenApart) {
+  EXPECT_EQ(report::wrapped("rank 'my  own study.toml' now", 12, 2),
+            "rank\n  'my  own study.toml'\n  now\n");
+  EXPECT_EQ(report::wrapped("rank 'it'\\''s mine' now", 12, 2), "rank\n  'it'\\''s mine'\n  now\n");
+  EXPECT_EQ(report::wrapped("the others' parts 'and no end", 12, 2),
+            "the others'\n  parts 'and\n  no end\n");
+}
+
 TEST(Report, IsOnePageWithoutScriptsAndAddresses) {
   report::Report report{.command = "<b>",
                         .title = "<script>alert(1)</script>",
