@@ -44,10 +44,9 @@ void export_for(const Others& others, const std::string& folder) {
       others.export_to);
 }
 
-std::vector<blind::RivalScore> rivals_of(const Others& others, const std::string& folder,
-                                         int threads) {
+std::vector<blind::RivalScore> rivals_of(const Others& others, const std::string& folder) {
   if (!others.rivals) return {};
-  return blind::score_rivals(folder, inference::SearchLimits::alpha, threads);
+  return blind::score_rivals(folder, inference::SearchLimits::alpha, 0);
 }
 
 /// What is said where the diagnoses are stopped.
@@ -83,11 +82,11 @@ ExitCode tell_unfinished(const std::string& folder, const mc::WorkerShare& share
 
 /// Scores what is answered, writes and shows it.
 ExitCode present(const mc::Study& study, report::BlindResults results, const std::string& folder,
-                 const Others& others, int threads) {
+                 const Others& others) {
   say("Answers sealed: SHA-256 {}\n", results.answers_hash);
   results.scores = blind::score_folder(folder);
   results.summary = blind::summarise(results.scores);
-  results.rivals = rivals_of(others, folder, threads);
+  results.rivals = rivals_of(others, folder);
   const report::Report said =
       with_provenance(report::blind_report(results), report::provenance_of(study.path, {}));
   show_answer(said.brief, {report::to_text(said), folder, report::write_report(said, folder)});
@@ -104,7 +103,7 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   StudyArguments all = arguments;
   if (given.trials) all.sets.push_back("blind.trials=" + *given.trials);
   const std::string& folder = given.folder;
-  const mc::WorkSession session = given.sharing.session(arguments.threads);
+  const mc::WorkSession session = given.sharing.session();
   given.sharing.require_part(
       "Start it once, or add --worker auto or a --worker i/n of its own to each");
   const mc::Study study = all.read();
@@ -142,7 +141,7 @@ ExitCode blind(const StudyArguments& arguments, const BlindArguments& given) {
   const auto answers = blind::answer_trials(folder, blind::diagnosing_solver(), session, answered);
   if (!answers) return tell_unfinished(folder, session.share);
   results.answers_hash = *answers;
-  return present(study, std::move(results), folder, given.others, arguments.threads);
+  return present(study, std::move(results), folder, given.others);
 }
 
 }  // namespace

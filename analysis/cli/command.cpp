@@ -16,12 +16,6 @@ void add_study(CLI::App& app, StudyArguments& study) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.add_option("--seed", study.seed, "override monte_carlo.seed")->check(check_seed);
-  add_threads(app, study.threads);
-}
-
-void add_threads(CLI::App& app, int& threads) {
-  app.add_option("--threads", threads, "number of threads; all by default")
-      ->check(CLI::Range(1, 4096));
 }
 
 void add_progress(CLI::App& app, std::string& style) {

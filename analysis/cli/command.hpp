@@ -52,7 +52,6 @@ inline constexpr std::string_view program = "The program";
 
 // Options that several commands have.
 void add_study(CLI::App& app, StudyArguments& study);
-void add_threads(CLI::App& app, int& threads);
 void add_progress(CLI::App& app, std::string& style);
 /// --full, of a command that prints its answer in brief (answer.hpp).
 void add_full(CLI::App& app);

@@ -114,7 +114,6 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
                      "more turns about more axes are what helps");
   if (!folder.empty()) require_one_task("Start it once");
   require_results_folder({folder, "diagnose"}, with(paths, study.path));
-  const mc::ThreadCount threads(arguments.threads);
   return study.kind == RecordingKind::strapdown
              ? diagnose_case(arguments, study, paths, folder)
              : diagnose_platform(arguments, study, paths, folder, advise);

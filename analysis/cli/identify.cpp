@@ -46,9 +46,8 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   const auto progress = progress_reporter(arguments.progress, "estimates");
   const auto recordings = read_recordings(study, paths);
   const identification::Identification id =
-      paths.empty()
-          ? identification::identify_simulated(study, run, arguments.threads, progress)
-          : identification::identify_recordings(study, recordings, arguments.threads, progress);
+      paths.empty() ? identification::identify_simulated(study, run, 0, progress)
+                    : identification::identify_recordings(study, recordings, 0, progress);
   for (const std::string& remark : id.remarks) say("note: {}\n", remark);
   const report::Report said = with_provenance(report::identification_report(study, id),
                                               report::provenance_of(study.path, paths));

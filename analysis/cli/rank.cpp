@@ -41,14 +41,13 @@ bool is_shared(const RankArguments& options) {
 
 /// The candidates of a study, in the folder of its results.
 std::unique_ptr<planning::SharedSteps> shared_steps(const mc::Study& study,
-                                                    const RankArguments& options, int threads) {
+                                                    const RankArguments& options) {
   const std::string folder = planning::steps_folder(options.folder);
   const mc::Manifest manifest =
       planning::steps_manifest(identity_of(study), study.text, options.improve, options.criterion);
   begin_results({options.folder, "rank"});
   mc::claim_folder(folder, manifest);
-  return std::make_unique<planning::SharedSteps>(folder, manifest,
-                                                 options.sharing.session(threads));
+  return std::make_unique<planning::SharedSteps>(folder, manifest, options.sharing.session());
 }
 
 void say_stopped(const std::string& folder) {
@@ -74,14 +73,13 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   planning::RankOptions what;
   what.improve = options.improve;
   what.criterion = options.criterion;
-  what.threads = arguments.threads;
   planning::ImproveProgress progress;
   if (options.improve > 0) progress = progress_reporter(arguments.progress, "positions");
   std::unique_ptr<planning::SharedSteps> shared;
   std::optional<StopAtOnce> stop;
   if (is_shared(options)) {
     planning::criterion_of(study, options.criterion);  // before anything is written
-    shared = shared_steps(study, options, arguments.threads);
+    shared = shared_steps(study, options);
     stop.emplace(fmt::format(
         "stopped: what is judged is kept in {}; the same command goes on with the rest\n",
         options.folder));

@@ -18,8 +18,8 @@ std::optional<double> Sharing::seconds() const {
   return parse_duration("--max-wall", max_wall);
 }
 
-mc::WorkSession Sharing::session(int threads) const {
-  return {threads, share(), mc::WallTime(seconds())};
+mc::WorkSession Sharing::session() const {
+  return {.share = share(), .time = mc::WallTime(seconds())};
 }
 
 void Sharing::require_part(const std::string& advice) const {

@@ -16,8 +16,8 @@ struct Sharing {
   /// All of the work where no part is asked for. InputError (usage).
   mc::WorkerShare share() const;
   std::optional<double> seconds() const;
-  /// One that begins at this moment.
-  mc::WorkSession session(int threads) const;
+  /// One that begins at this moment, on the usual number of threads.
+  mc::WorkSession session() const;
   bool is_asked_for() const { return !worker.empty() || !max_wall.empty(); }
   /// Where no part is asked for, as require_one_task().
   void require_part(const std::string& advice) const;

@@ -14,7 +14,6 @@ struct StudyArguments {
   std::string config;
   std::vector<std::string> sets;  ///< "key=value"
   std::optional<std::string> seed;
-  int threads = 0;                ///< 0: all
   std::string progress = "auto";  ///< auto, plain, json, none
 
   /// Reads the study with the overrides of the command line.

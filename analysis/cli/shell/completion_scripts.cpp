@@ -50,7 +50,7 @@ _driftscope() {{
   COMPREPLY=()
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${{COMP_WORDS[i]}} in
-    --color) ((++i)) ;;
+    --color|--threads) ((++i)) ;;
     -*) ;;
     *) command=${{COMP_WORDS[i]}}; break ;;
     esac

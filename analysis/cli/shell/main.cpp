@@ -11,6 +11,7 @@
 #include "analysis/cli/shell/tell_error.hpp"
 #include "analysis/cli/shell/terminal_options.hpp"
 #include "analysis/cli/stop_at_once.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace {
 
@@ -59,8 +60,9 @@ class Program {
     app->callback(
         [this, app, run = command.add(*app), result = command.result, stopped = command.stopped] {
           cli::set_terminal(cli::terminal_of(terminal_, *app, result));
-          chosen_ = [run, stopped] {
+          chosen_ = [this, run, stopped] {
             const cli::StopAtOnce stop(stopped);
+            const mc::ThreadCount threads(terminal_.threads);
             return run();
           };
         });

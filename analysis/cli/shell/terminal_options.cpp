@@ -39,6 +39,8 @@ void add_terminal_options(CLI::App& app, TerminalOptions& options) {
                "print errors only, and what was asked for where no file takes it");
   app.add_option("--color", options.color, "auto (on a terminal, unless NO_COLOR), always or never")
       ->check(one_of({"auto", "always", "never"}));
+  app.add_option("--threads", options.threads, "number of threads; all by default")
+      ->check(CLI::Range(1, 4096));
 }
 
 Terminal terminal_of(const TerminalOptions& options, const CLI::App& given, Result result) {

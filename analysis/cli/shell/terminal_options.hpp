@@ -12,9 +12,10 @@ namespace drift::cli {
 struct TerminalOptions {
   bool quiet = false;
   std::string color = "auto";  ///< auto, always, never
+  int threads = 0;             ///< that work is spread over, where it can be; 0: all
 };
 
-/// Adds --quiet and --color.
+/// Adds --quiet, --color and --threads.
 void add_terminal_options(CLI::App& app, TerminalOptions& options);
 
 /// What the terminal shows of a command that was given: with --quiet no remarks and no progress,

@@ -64,14 +64,14 @@ std::string work_text(const AskedRun& asked, const mc::EngineOptions& options,
 }
 
 /// The cost of what is to be executed.
-std::string cost_text(const AskedRun& asked, const mc::EngineOptions& options,
-                      const mc::Forecast& would, std::uint64_t runs, std::size_t processes) {
+std::string cost_text(const AskedRun& asked, const mc::Forecast& would, std::uint64_t runs,
+                      std::size_t processes) {
   if (would.own.empty()) return "";
   double bytes = 0.0;
   for (const mc::BlockKey& block : would.own)
     bytes += static_cast<double>(block.count) *
              (1.0 + 8.0 * static_cast<double>(asked.manifest.points[block.point].columns.size()));
-  const int threads = options.threads > 0 ? options.threads : mc::usual_threads();
+  const int threads = mc::usual_threads();
   const Probed tried = probe(asked, would.own);
   const double each = tried.seconds / static_cast<double>(tried.runs);
   return fmt::format(
@@ -111,7 +111,7 @@ ExitCode dry_run(const AskedRun& asked, mc::EngineOptions options, const mc::Ran
                          : " (new)",
       points, options.runs * points, options.runs, mc::all_blocks(manifest, options.runs).size(),
       manifest.identity.block_size, work_text(asked, options, would, runs),
-      manifest.points.front().columns.size(), cost_text(asked, options, would, runs, ranks.size()));
+      manifest.points.front().columns.size(), cost_text(asked, would, runs, ranks.size()));
   for (std::size_t p = 0; p < points; ++p)
     if (!work.points[p].label.empty()) show("point {:<4} {}\n", p, work.points[p].label);
   return ExitCode::ok;

@@ -94,7 +94,6 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   mc::EngineOptions options;
   options.runs = study.monte_carlo.runs;
   options.allowed_failures = study.monte_carlo.allowed_failures;
-  options.threads = arguments.threads;
   options.share = given.sharing.share();
   options.max_wall = given.sharing.seconds();
   options.fail_fast = given.fail_fast;

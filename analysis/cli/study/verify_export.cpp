@@ -31,13 +31,12 @@ Stranger other_than(const std::string& hash) {
   };
 }
 
-ExitCode verify(const std::string& folder, const std::string& sample, int threads,
-                const StudyProgram& program) {
+ExitCode verify(const std::string& folder, const std::string& sample, const StudyProgram& program) {
   const double share = parse_fraction("--sample", sample);
   mc::StudyReader reader(folder);
   const auto [study, work] = frozen_study(folder, reader, program);
   if (share > 0.0) mc::require_same_arithmetic(folder, reader.manifest());
-  mc::Verification v = mc::verify(work, reader, share, threads);
+  mc::Verification v = mc::verify(work, reader, share, 0);
   for (const std::string& name : changed_results(folder))
     v.damage.push_back(fmt::format(
         "{}/{}: not as driftscope wrote it. Move it away, and the same command makes it anew",
@@ -117,19 +116,16 @@ ExitCode export_results(const std::string& folder, const std::string& format,
 Command verify_command() {
   struct Arguments {
     std::string folder, sample = "1%";
-    int threads = 0;
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_folder(app, a.folder);
     app.add_option("--sample", a.sample, "share of the runs to execute again, 1% by default")
         ->type_name("SHARE");
-    add_threads(app, a.threads);
   };
   return {"verify", group::studies, "check every checksum and execute some runs again",
           "driftscope verify results/study --sample 5%",
-          with_arguments<Arguments>(add, [](const Arguments& a) {
-            return verify(a.folder, a.sample, a.threads, study_program());
-          })};
+          with_arguments<Arguments>(
+              add, [](const Arguments& a) { return verify(a.folder, a.sample, study_program()); })};
 }
 
 Command export_command() {

@@ -41,6 +41,7 @@ TEST(Completion, BashCompletesCommandsOptionsValuesAndKeys) {
             "truth.parameters.D_F_x=\n");
   EXPECT_EQ(offered("driftscope terms gyro_mis"), "gyro_misalignment\n");
   EXPECT_EQ(offered("driftscope --color always ident"), "identify\n");
+  EXPECT_EQ(offered("driftscope --threads 2 ident"), "identify\n");
 }
 
 TEST(Completion, FilesAreLeftToTheShell) {

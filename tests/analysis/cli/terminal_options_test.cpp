@@ -41,6 +41,25 @@ TEST(Quiet, ErrorsAreToldAllTheSame) {
   EXPECT_TRUE(has(a.err, "unknown key 'plna'")) << a.err;
 }
 
+/// A script gives it to every command, before or behind its name.
+TEST(Threads, EveryCommandTakesTheirNumber) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", cheap_study()), out = folder.file("out"),
+                    run = "run " + study + " --runs 8 -o " + out;
+  EXPECT_TRUE(has(driftscope(run + " --dry-run --threads 2").out, " with 2 threads"));
+  EXPECT_TRUE(has(driftscope("--threads 1 " + run + " --dry-run").out, " with 1 threads"));
+  for (const std::string& line : std::vector<std::string>{
+           run, "status " + out, "report " + out, "replay " + out + " --run 3",
+           "verify " + out + " --sample 100%", "export " + out + " --format csv", "check " + study,
+           "rank " + study, "identify " + study,
+           "simulate " + study + " -o " + folder.file("r.csv"), "look " + folder.file("r.csv"),
+           "terms", "version", "schema"}) {
+    EXPECT_EQ(driftscope(line + " --threads 1").code, 0) << line;
+    EXPECT_EQ(driftscope("--threads 1 " + line).code, 0) << line;
+  }
+  EXPECT_EQ(driftscope("status " + out + " --threads 0").code, static_cast<int>(ExitCode::usage));
+}
+
 TEST(Color, VerdictsAreColouredOnRequestAndNeverInAPipeOrFile) {
   const ScratchFolder folder;
   const std::string run =
