@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "analysis/cli/verdict_colour.hpp"
 #include "core/base/utf8.hpp"
@@ -55,6 +56,35 @@ void write_results(const std::string& shown) {
     throw OutputLost(errno, std::generic_category());
 }
 
+void write_line(const std::string& line) {
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fflush(stderr);
+}
+
+/// A remark as one JSON object on one line.
+std::string json_line(std::string_view text, std::string_view level) {
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  const nlohmann::ordered_json object{{"level", level}, {"message", text}};
+  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_remark(std::string_view text, std::string_view level) {
+  constexpr std::size_t longest = 3000;  // [bytes] of a line
+  // A line that is redrawn begins with a return, which is the program's own.
+  const bool redrawn = text.starts_with('\r');
+  const std::string shown = shortened_lines(printed(redrawn ? text.substr(1) : text), longest);
+  if (the_terminal().lines == Terminal::Lines::json) {
+    if (!shown.empty()) write_line(json_line(shown, level));
+    return;
+  }
+  if (redrawn)
+    std::fputc('\r', stderr);
+  else
+    end_open_line();
+  open_line = redrawn && !shown.ends_with('\n') ? 1 : 0;
+  write_line(shown);
+}
+
 }  // namespace
 
 void set_terminal(const Terminal& terminal) {
@@ -101,21 +131,20 @@ void show_judgement(std::string_view text, report::Tone tone) {
 }
 
 void say_text(std::string_view text) {
-  if (the_terminal().remarks == Terminal::Shown::yes) complain_text(text);
+  if (the_terminal().remarks == Terminal::Shown::yes) write_remark(text, "note");
 }
 
 void complain_text(std::string_view text) {
-  constexpr std::size_t longest = 3000;  // [bytes] of a line
-  // A line that is redrawn begins with a return, which is the program's own.
-  const bool redrawn = text.starts_with('\r');
-  const std::string shown = shortened_lines(printed(redrawn ? text.substr(1) : text), longest);
-  if (redrawn)
-    std::fputc('\r', stderr);
-  else
-    end_open_line();
-  open_line = redrawn && !shown.ends_with('\n') ? 1 : 0;
-  std::fwrite(shown.data(), 1, shown.size(), stderr);
-  std::fflush(stderr);
+  write_remark(text, "error");
+}
+
+void say_json(const std::string& object) {
+  if (the_terminal().remarks == Terminal::Shown::yes) write_line(object + "\n");
+}
+
+std::string note_line(std::string_view text) {
+  return the_terminal().lines == Terminal::Lines::json && !text.empty() ? json_line(text, "note")
+                                                                        : std::string(text);
 }
 
 void flush_output() {

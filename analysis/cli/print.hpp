@@ -24,6 +24,8 @@ struct Terminal {
   Shown remarks = Shown::yes;  ///< what say() prints
   Shown colour = Shown::no;    ///< of verdicts
   Shown details = Shown::no;   ///< what --full asks for, behind the answer
+  enum class Lines { words, json };
+  Lines lines = Lines::words;  ///< of standard error; json: each line a JSON object
 };
 
 /// The command line, whose names of files are printed as on one line, whatever is in them.
@@ -56,6 +58,13 @@ void say_text(std::string_view text);
 
 /// Errors: as say_text(), but never silenced.
 void complain_text(std::string_view text);
+
+/// A line of progress that is a JSON object, to standard error: as it is, or not at all.
+void say_json(const std::string& object);
+
+/// What say_text() writes of a text, ended: the text, or {"level": "note", "message": text} where
+/// every line is JSON.
+std::string note_line(std::string_view text);
 
 template <class... A>
 void show(fmt::format_string<A...> text, A&&... arguments) {

@@ -64,8 +64,9 @@ std::function<void(std::size_t, std::size_t)> progress_reporter(const std::strin
     const double rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
     const double left = static_cast<double>(total - done) / rate;
     if (json) {
-      say("{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{:.1f}}}\n",
-          what, done, total, elapsed, left);
+      say_json(fmt::format(
+          "{{\"what\":\"{}\",\"done\":{},\"total\":{},\"elapsed_s\":{:.1f},\"eta_s\":{}}}", what,
+          done, total, elapsed, std::isfinite(left) ? fmt::format("{:.1f}", left) : "null"));
     } else if (redraw) {
       redraw_progress(what, static_cast<double>(done) / static_cast<double>(total),
                       fmt::format("{}/{}, {:.3g}/s, {}", done, total, rate,
@@ -96,9 +97,9 @@ std::function<void(const std::string&, double)> stage_reporter(const std::string
     const bool known = done > 0.02, over = percent >= 100;
     const double left = known ? elapsed * (1.0 - done) / done : 0.0;
     if (json) {
-      say("{{\"what\":\"{}\",\"stage\":\"{}\",\"done\":{:.3f},\"elapsed_s\":{:.1f},\"eta_"
-          "s\":{}}}\n",
-          what, name, done, elapsed, known ? fmt::format("{:.1f}", left) : "null");
+      say_json(fmt::format(
+          "{{\"what\":\"{}\",\"stage\":\"{}\",\"done\":{:.3f},\"elapsed_s\":{:.1f},\"eta_s\":{}}}",
+          what, name, done, elapsed, known ? fmt::format("{:.1f}", left) : "null"));
     } else if (redraw) {
       redraw_progress(what, done,
                       over ? fmt::format("took {}", duration_text(elapsed))

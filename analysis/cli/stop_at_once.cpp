@@ -18,7 +18,7 @@ namespace drift::cli {
 namespace {
 
 // A signal handler reaches nothing but globals. Words are written where it does not look.
-constexpr std::size_t room = 512;
+constexpr std::size_t room = 8192;  // the longest path, and words
 std::array<std::array<char, room>, 2> texts{};
 std::atomic<int> said{0};
 std::array<struct sigaction, std::size(mc::stop_signals)> handlers_before{};
@@ -36,6 +36,15 @@ extern "C" void on_stop(int number) {
   write_words(texts[static_cast<std::size_t>(said.load())].data());
   remove_own_temporaries();
   ::_exit(static_cast<int>(mc::code_of_stop(number)));
+}
+
+/// What the handler is to write from here on.
+void put(std::string_view line) {
+  const int other = 1 - said.load();
+  auto& text = texts[static_cast<std::size_t>(other)];
+  const std::string_view kept = line.substr(0, room - 1);
+  *std::copy(kept.begin(), kept.end(), text.begin()) = '\0';
+  said = other;
 }
 
 void install() {
@@ -59,15 +68,11 @@ StopAtOnce::StopAtOnce(std::string_view words)
 }
 
 void StopAtOnce::say(std::string_view words) {
-  const int other = 1 - said.load();
-  auto& text = texts[static_cast<std::size_t>(other)];
-  const std::string_view kept = words.substr(0, room - 1);
-  *std::copy(kept.begin(), kept.end(), text.begin()) = '\0';
-  said = other;
+  put(note_line(words));
 }
 
 StopAtOnce::~StopAtOnce() {
-  say(before_);
+  put(before_);
   if (--living > 0) return;
   for (std::size_t i = 0; i < std::size(mc::stop_signals); ++i)
     ::sigaction(mc::stop_signals[i], &handlers_before[i], nullptr);

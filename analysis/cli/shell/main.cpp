@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
+#include <span>
 #include <sstream>
 
 #include "analysis/cli/print.hpp"
@@ -93,7 +94,11 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an I/O error, not a crash
   try {
-    cli::set_arguments({argv, static_cast<std::size_t>(argc)});
+    const std::span<char* const> arguments(argv, static_cast<std::size_t>(argc));
+    cli::set_arguments(arguments);
+    cli::Terminal terminal;
+    if (cli::asks_for_json_lines(arguments)) terminal.lines = cli::Terminal::Lines::json;
+    cli::set_terminal(terminal);
     return Program().run(argc, argv);
   } catch (...) {
     return cli::tell_error(std::current_exception());

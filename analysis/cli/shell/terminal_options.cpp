@@ -43,15 +43,27 @@ void add_terminal_options(CLI::App& app, TerminalOptions& options) {
       ->check(CLI::Range(1, 4096));
 }
 
+bool asks_for_json_lines(std::span<char* const> arguments) {
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const std::string_view word = arguments[k];
+    if (word == "--progress=json") return true;
+    if (word == "--progress" && k + 1 < arguments.size() &&
+        std::string_view(arguments[k + 1]) == "json")
+      return true;
+  }
+  return false;
+}
+
 Terminal terminal_of(const TerminalOptions& options, const CLI::App& given, Result result) {
   using enum Terminal::Shown;
-  Terminal terminal;
-  terminal.details = has(given, "--full") ? yes : no;
-  terminal.colour = shows_colour(options.color) ? yes : no;
-  if (!options.quiet) return terminal;
-  terminal.remarks = no;
-  terminal.results = writes_files(given, result) ? no : yes;
-  return terminal;
+  Terminal shown;
+  shown.lines = terminal().lines;
+  shown.details = has(given, "--full") ? yes : no;
+  shown.colour = shows_colour(options.color) ? yes : no;
+  if (!options.quiet) return shown;
+  shown.remarks = no;
+  shown.results = writes_files(given, result) ? no : yes;
+  return shown;
 }
 
 }  // namespace drift::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <span>
 #include <string>
 
 #include "analysis/cli/command.hpp"
@@ -17,6 +18,10 @@ struct TerminalOptions {
 
 /// Adds --quiet, --color and --threads.
 void add_terminal_options(CLI::App& app, TerminalOptions& options);
+
+/// Whether the command line asks for progress as JSON: then nothing else is on standard error, not
+/// even what is wrong with the command line.
+bool asks_for_json_lines(std::span<char* const> arguments);
 
 /// What the terminal shows of a command that was given: with --quiet no remarks and no progress,
 /// and no text on standard output where what was asked for is in files.

@@ -33,9 +33,10 @@ mc::ProgressSink run_progress(const std::string& style) {
     const double left = complete ? 0.0 : static_cast<double>(p.total - p.done) / rate;
     if (json) {
       const std::string eta = std::isfinite(left) ? fmt::format("{:.1f}", left) : "null";
-      say("{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:."
-          "1f},\"eta_s\":{}}}\n",
-          p.done, p.total, p.failed, rate, p.elapsed, eta);
+      say_json(fmt::format(
+          "{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:.1f},"
+          "\"eta_s\":{}}}",
+          p.done, p.total, p.failed, rate, p.elapsed, eta));
       return;
     }
     const std::string line =

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/support/program.hpp"
 
@@ -216,6 +217,40 @@ TEST(StudyCommands, ProgressComesAsJsonLines) {
   EXPECT_EQ(line["done"], 200);
   EXPECT_EQ(line["total"], 200);
   EXPECT_EQ(line["eta_s"], 0.0);
+}
+
+/// How many lines say this; each must be a JSON object.
+std::size_t json_lines(const std::string& text, const std::string& level) {
+  std::size_t count = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    EXPECT_TRUE(json.is_object()) << line;
+    if (json.is_object() && json.value("level", "progress") == level) ++count;
+    if (json.is_object() && json.contains("level")) {
+      EXPECT_FALSE(json["message"].get<std::string>().empty());
+    }
+  }
+  return count;
+}
+
+TEST(StudyCommands, WithProgressAsJsonEveryLineIsJson) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), run = "run " + study_file(scratch, "fail_every=50") +
+                                                     " --progress json -o " + out;
+  const Answer first = program(run), again = program(run), other = program(run + " --seed 8"),
+               wrong = program(run + " --nonsense"), less = program("run --progress=json");
+  EXPECT_EQ(first.code, 5);
+  EXPECT_GE(json_lines(first.err, "note"), 3u) << first.err;  // where to, what was done, failures
+  EXPECT_GE(json_lines(first.err, "progress"), 1u) << first.err;
+  EXPECT_GE(json_lines(again.err, "note"), 2u) << again.err;
+  EXPECT_EQ(other.code, 7);
+  EXPECT_EQ(json_lines(other.err, "error"), 1u) << other.err;
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_GE(json_lines(wrong.err, "error"), 1u) << wrong.err;
+  EXPECT_EQ(less.code, 2);
+  EXPECT_GE(json_lines(less.err, "error"), 1u) << less.err;
+  EXPECT_EQ(json_lines(program(run + " --quiet").err, "note"), 0u);
 }
 
 }  // namespace
