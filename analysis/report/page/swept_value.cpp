@@ -43,6 +43,14 @@ std::vector<std::pair<std::string, std::string>> members_of(const std::string& v
   return members;
 }
 
+/// A value without the blanks around it, a text without its quotes.
+std::string word_of(std::string_view member) {
+  const auto is_around = [](char c) { return c == ' ' || c == '"'; };
+  while (!member.empty() && is_around(member.front())) member.remove_prefix(1);
+  while (!member.empty() && is_around(member.back())) member.remove_suffix(1);
+  return std::string(member);
+}
+
 }  // namespace
 
 std::optional<SweptNumber> swept_number(const std::string& value) {
@@ -77,13 +85,20 @@ std::string last_member(const std::string& value) {
 }
 
 std::string short_value(const std::string& value) {
+  const auto members = members_of(value);
   std::string text;
-  for (const auto& [name, member] : members_of(value)) {
+  for (const auto& [name, member] : members) {
     const auto number = swept_number(member);
     text += text.empty() ? "" : ", ";
-    text += number ? fmt::format("{} {:.6g} {}", name, number->si / number->unit.to_si,
-                                 number->unit.symbol.view())
-                   : name + member;
+    if (number && number->unit.symbol.view() != unit::one.symbol.view())
+      text += fmt::format("{} {:.6g} {}", name, number->si / number->unit.to_si,
+                          number->unit.symbol.view());
+    else if (number)
+      text += fmt::format("{} {:.6g}", name, number->si);
+    else if (members.size() == 1 && member.find('"') != std::string::npos)
+      text += word_of(member);
+    else
+      text += fmt::format("{} {}", name, word_of(member));
   }
   return text.empty() ? value : text;
 }

@@ -21,7 +21,8 @@ std::optional<SweptNumber> swept_number(const std::string& value);
 std::string last_member(const std::string& value);
 
 /// A value as a label: of a table its members with the last number of each, "eta 5 arcsec, xi 5
-/// arcsec"; anything else as it is.
+/// arcsec", and words without quotes, "preset six, dwell 20 min"; one word alone, "six", of a table
+/// of nothing else; anything else as it is.
 std::string short_value(const std::string& value);
 
 }  // namespace drift::report

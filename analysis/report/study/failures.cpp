@@ -31,8 +31,8 @@ Section failures(const StudyResults& results) {
     const auto& failed = results.statistics[p].failures();
     const std::uint64_t count = diverged_runs(failed);
     if (failed.lost().hits == 0 && count == 0) continue;
-    const std::string& label = results.points[p].label;
-    table.add({label.empty() ? "the study" : label, results.statistics[p].runs(),
+    table.add({results.points.size() == 1 ? "the study" : name_of(results, p),
+               results.statistics[p].runs(),
                rate_cell(failed.lost(), failed.too_many() ? Tone::bad : Tone::plain), count,
                fmt::format("{}", fmt::join(failed.first_failed(), " ")), tied_cell(failed)});
   }

@@ -67,7 +67,6 @@ std::vector<std::string> headlines(const StudyResults& results) {
   std::vector<std::size_t> refused;
   for (const Pair& pair : pairs) {
     const auto& failures = results.statistics[pair.point].failures();
-    const std::string& label = results.points[pair.point].label;
     if (!failures.too_many()) {
       if (lines.size() < most) lines.push_back(headline_of(results, pair));
     } else if (std::ranges::find(refused, pair.point) == refused.end()) {
@@ -75,7 +74,8 @@ std::vector<std::string> headlines(const StudyResults& results) {
       lines.push_back(
           fmt::format("No headline for {}: {} of the runs were lost, and what is left may be a "
                       "biased choice. See Failures.",
-                      label.empty() ? "this study" : label, rate_cell(failures.lost()).text));
+                      results.points.size() == 1 ? "this study" : name_of(results, pair.point),
+                      rate_cell(failures.lost()).text));
     }
   }
   return lines;

@@ -241,6 +241,11 @@ TEST(SweptValue, OfATableIsShortAsALabel) {
   EXPECT_EQ(report::last_member("{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }"),
             "gimbal_noise");
   EXPECT_EQ(report::short_value("20 arcsec"), "20 arcsec");
+  EXPECT_EQ(report::short_value("{ preset = \"six\" }"), "six");
+  EXPECT_EQ(report::short_value("{ preset = \"six\", dwell = \"20 min\" }"),
+            "preset six, dwell 20 min");
+  EXPECT_EQ(report::short_value("{ eta = \"5 arcsec\" }"), "eta 5 arcsec");
+  EXPECT_EQ(report::short_value("{ gimbals = true, starts = 3 }"), "gimbals true, starts 3");
   EXPECT_EQ(report::last_member("20 arcsec"), "");
 }
 
