@@ -143,6 +143,7 @@ class Engine {
         plan_.failed_before() + (alone ? own_failed_.load() : ranks_.add(Counter::failed, 0));
     p.done = plan_.runs_before() + p.done_now;
     p.total = plan_.total(p.done);
+    p.at_most = rules_.follows() && p.done < p.total;
     p.elapsed = seconds();
     return p;
   }

@@ -30,6 +30,7 @@ struct EngineOptions {
 struct Progress {
   std::uint64_t done = 0, total = 0, failed = 0;
   std::uint64_t done_now = 0;  ///< of `done`, those of this session
+  bool at_most = false;        ///< `total` is: stop rules may end points before
   double elapsed = 0.0;        ///< of this session [s]
 };
 

@@ -26,10 +26,7 @@ Listed list_stored(StudyReader& reader, const std::vector<BlockKey>& all,
       continue;
     }
     found.cut_short += runs;
-    if (rules.enough(all[i].point))
-      found.skipped += all[i].count;
-    else
-      found.missing.push_back(i);
+    if (!rules.enough(all[i].point)) found.missing.push_back(i);
   }
   return found;
 }

@@ -14,9 +14,8 @@ namespace drift::mc {
 /// the same; verify_stored() tells.
 struct Listed {
   std::uint64_t runs = 0, failed = 0;  ///< in blocks as long as they are asked for
-  std::uint64_t skipped = 0;  ///< runs that are not needed: the stop rule of their point has enough
   std::uint64_t cut_short = 0;         ///< runs in blocks that a shorter study ended within
-  std::vector<std::uint64_t> missing;  ///< numbers of blocks, of `all`
+  std::vector<std::uint64_t> missing;  ///< numbers of blocks, of `all`, whose point has not enough
 };
 
 /// `all`: all_blocks() of the study.

@@ -37,7 +37,6 @@ void WorkPlan::make() {
     const Listed found = listed();
     before_ = found.runs;
     failed_before_ = found.failed;
-    skipped_ = found.skipped;
     cut_short_ = found.cut_short;
     missing = own(found.missing);
   }

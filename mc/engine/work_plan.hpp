@@ -54,10 +54,10 @@ class WorkPlan {
   std::vector<BlockKey> all_;
   std::vector<std::uint64_t> todo_;  ///< into all_
   std::uint64_t before_ = 0, failed_before_ = 0;
-  std::uint64_t cut_short_ = 0;     ///< runs in blocks too short
-  std::uint64_t taken_before_ = 0;  ///< by the ranks' counter, more than there are in todo_
-  std::atomic<std::uint64_t> skipped_ = 0;
-  std::optional<Verified> verified_;  ///< and nothing was stored by this session since
+  std::uint64_t cut_short_ = 0;             ///< runs in blocks too short
+  std::uint64_t taken_before_ = 0;          ///< by the ranks' counter, more than there are in todo_
+  std::atomic<std::uint64_t> skipped_ = 0;  ///< runs in todo_ whose point had enough meanwhile
+  std::optional<Verified> verified_;        ///< and nothing was stored by this session since
 };
 
 }  // namespace drift::mc

@@ -76,10 +76,11 @@ std::string own_text() {
                          "ended, remove this file and run the same command again"));
 }
 
-/// Locks the file of a worker by the kernel, for as long as it stays open; false where the kernel
-/// cannot. InputError (store) if another process has it locked after `patience` [s].
-bool lock_by_kernel(int fd, const std::string& path, double patience) {
-  for (int i = 0; ::flock(fd, LOCK_EX | LOCK_NB) != 0; ++i) {
+/// Locks the file of a worker by the kernel, for as long as it stays open: LOCK_EX, or LOCK_SH to
+/// look. False where the kernel cannot. InputError (store) if another process has it locked after
+/// `patience` [s].
+bool lock_by_kernel(int fd, int kind, const std::string& path, double patience) {
+  for (int i = 0; ::flock(fd, kind | LOCK_NB) != 0; ++i) {
     if (errno != EWOULDBLOCK && errno != EINTR) return false;
     if (i >= tries_in(patience))
       throw InputError(ExitCode::store,
@@ -126,7 +127,7 @@ WorkerLock::WorkerLock(const std::string& worker_file, double patience)
   if (fd_ < 0) throw_cannot_write(path, std::strerror(errno));
   try {
     locks_ = probe_locks(path);
-    const bool alone = lock_by_kernel(fd_, path, patience);
+    const bool alone = lock_by_kernel(fd_, LOCK_EX, path, patience);
     // One that stands was made where the same folder has no locks: it counts here too.
     if (!alone || locks_ == Locks::none || fs::exists(holder_)) hold(patience);
   } catch (...) {
@@ -165,7 +166,7 @@ void require_no_other(const std::string& worker_file, double patience) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (fd < 0) return;  // there was none yet, or whoever opens it in earnest says why not
   try {
-    lock_by_kernel(fd, path, patience);
+    lock_by_kernel(fd, LOCK_SH, path, patience);
   } catch (...) {
     ::close(fd);
     throw;
@@ -175,6 +176,20 @@ void require_no_other(const std::string& worker_file, double patience) {
     if (i >= tries_in(patience)) refuse(holder, text_in(holder));
     std::this_thread::sleep_for(pause);
   }
+}
+
+AtWork is_at_work(const std::string& worker_file) {
+  const std::string text = text_in(holder_of(worker_file));
+  const Maker holder = maker_in(text);
+  if (holder == Maker::at_work) return AtWork::yes;
+  const int fd =
+      ::open((stem_of(worker_file) + ".lock").c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (fd < 0) return errno == ENOENT && text.empty() ? AtWork::no : AtWork::unknown;
+  const bool is_free = ::flock(fd, LOCK_SH | LOCK_NB) == 0;
+  const int reason = errno;
+  ::close(fd);
+  if (!is_free) return reason == EWOULDBLOCK ? AtWork::yes : AtWork::unknown;
+  return text.empty() || holder == Maker::ended ? AtWork::no : AtWork::unknown;
 }
 
 bool is_held(const std::string& worker_file) {

@@ -45,6 +45,10 @@ class WorkerLock {
 /// `patience` [s]. Makes no file and keeps nobody out.
 void require_no_other(const std::string& worker_file, double patience);
 
+/// Whether a process works on the file of a worker, as far as can be told from here.
+enum class AtWork { yes, no, unknown };
+AtWork is_at_work(const std::string& worker_file);
+
 /// Whether a process that may be at work holds the file of a worker without the kernel's locks.
 bool is_held(const std::string& worker_file);
 

@@ -35,13 +35,15 @@ mc::ProgressSink run_progress(const std::string& style) {
       const std::string eta = std::isfinite(left) ? fmt::format("{:.1f}", left) : "null";
       say_json(fmt::format(
           "{{\"done\":{},\"total\":{},\"failed\":{},\"runs_per_s\":{:.2f},\"elapsed_s\":{:.1f},"
-          "\"eta_s\":{}}}",
-          p.done, p.total, p.failed, rate, p.elapsed, eta));
+          "\"eta_s\":{},\"at_most\":{}}}",
+          p.done, p.total, p.failed, rate, p.elapsed, eta, p.at_most));
       return;
     }
-    const std::string line =
-        fmt::format("{}/{} runs, {} failed, {:.1f} runs/s, {}", p.done, p.total, p.failed, rate,
-                    complete ? "took " + duration_text(p.elapsed) : duration_text(left) + " left");
+    const std::string line = fmt::format(
+        "{}{}{} runs, {} failed, {:.1f} runs/s, {}", p.done, p.at_most ? " of at most " : "/",
+        p.total, p.failed, rate,
+        complete ? "took " + duration_text(p.elapsed)
+                 : fmt::format("{}{} left", p.at_most ? "at most " : "", duration_text(left)));
     if (redraw) {
       redraw_progress("run", static_cast<double>(p.done) / static_cast<double>(p.total), line,
                       complete ? LineEnd::last : LineEnd::redrawn);

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "analysis/blind/session/seal.hpp"
 #include "analysis/blind/session/trial_folder.hpp"
@@ -11,6 +13,7 @@
 #include "analysis/planning/shared_steps.hpp"
 #include "core/base/results/folder.hpp"
 #include "mc/store/study_state.hpp"
+#include "mc/store/worker_lock.hpp"
 
 namespace drift::cli {
 namespace {
@@ -20,15 +23,29 @@ ExitCode code_of(bool complete) {
   return complete ? ExitCode::ok : ExitCode::wall_time;
 }
 
-std::string ending(const mc::Session& s) {
-  return s.ended_utc.empty() ? "at work, or killed"
-                             : fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
-}
-
 std::string fact(const mc::Session& s, std::string_view key) {
   for (const auto& [k, value] : s.facts)
     if (k == key) return value;
   return "?";
+}
+
+/// `later`: of the sessions after it. A process works on a worker's file alone: of several sessions
+/// without an end the last may be at work.
+std::string ending(const mc::Session& s, std::span<const mc::Session> later) {
+  if (!s.ended_utc.empty())
+    return fmt::format("ended {} with exit code {}", s.ended_utc, s.exit_code);
+  const std::string file = fact(s, "file");
+  const bool is_last = std::ranges::none_of(
+      later, [&](const mc::Session& other) { return fact(other, "file") == file; });
+  switch (is_last ? mc::is_at_work(file) : mc::AtWork::no) {
+    case mc::AtWork::yes:
+      return "at work";
+    case mc::AtWork::no:
+      return "killed";
+    case mc::AtWork::unknown:
+      break;
+  }
+  return "at work, or killed: it cannot be told from here";
 }
 
 ExitCode status_of_study(const std::string& folder, const StudyProgram& program) {
@@ -54,9 +71,11 @@ ExitCode status_of_study(const std::string& folder, const StudyProgram& program)
     show("at most {} of CPU time to go\n",
          duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
   show("disk {:.3g} MB in {} worker files\n", megabytes_of(reader.files()), reader.files().size());
-  for (const mc::Session& s : reader.sessions())
-    show("session {} on {}, {}: {}\n", s.started_utc, fact(s, "host"),
-         std::filesystem::path(fact(s, "file")).filename().string(), ending(s));
+  const std::vector<mc::Session> sessions = reader.sessions();
+  for (std::size_t k = 0; k < sessions.size(); ++k)
+    show("session {} on {}, {}: {}\n", sessions[k].started_utc, fact(sessions[k], "host"),
+         std::filesystem::path(fact(sessions[k], "file")).filename().string(),
+         ending(sessions[k], std::span(sessions).subspan(k + 1)));
   for (const std::string& note : reader.notes()) show("damage: {}\n", note);
   if (state.lost > 0) show("lost: {}\n", state.was_complete());
   return code_of(state.all());

@@ -242,5 +242,26 @@ TEST(Engine, ProgressCountsUpToTheWholeStudy) {
   EXPECT_EQ(last.total, 600u);
 }
 
+/// The first point has enough after its first block, the second never: what the rule spares of the
+/// first is not taken off what there is to do of the second.
+TEST(Engine, ProgressOfAResumedStudyCountsWhatIsToCome) {
+  const ScratchFolder folder;
+  SyntheticStudy study{.task = {.milliseconds = 1.0}, .points = 2, .options = {.runs = 64}};
+  study.rules = [](std::size_t p) {
+    return std::make_unique<test::MeanRule>(5, p == 0 ? 0.2 : 1e-6);
+  };
+  study.run(folder.path());
+  study.options.runs = 300;
+  std::vector<mc::Progress> told;
+  study.run(folder.path(), [&](const mc::Progress& p) { told.push_back(p); });
+  ASSERT_GE(told.size(), 2u);  // with the first runs, and at the end
+  for (const mc::Progress& p : told) {
+    EXPECT_EQ(p.total, 64u + 300u);
+    EXPECT_EQ(p.at_most, p.done < p.total);
+  }
+  EXPECT_LT(told.front().done, 300u);
+  EXPECT_EQ(told.back().done, 364u);
+}
+
 }  // namespace
 }  // namespace drift::engine_test
