@@ -26,11 +26,14 @@ void take_smooth(const std::vector<SteppedCovariate>& stepped, std::vector<Recor
     for (std::size_t row = 0; row < time.size(); ++row)
       if (std::isfinite(column->values[row]))
         column->values[row] = reading.at(time[row]).value_or(column->values[row]);
-    remarks.push_back(fmt::format(
-        "{}: the {} is read in steps of {:.3g} {}, which hide its rate: taken from the parabolas "
-        "through {:.3g} min to both sides of a row",
-        r.source.empty() ? "recording" : r.source, covariate->what,
-        reading.step() / column->unit.to_si, column->unit.symbol.view(), reading.half() / 60.0));
+    remarks.push_back(
+        fmt::format("{}: the {} is read in steps of {:.3g} {}, which hide its rate: taken from {}",
+                    r.source.empty() ? "recording" : r.source, covariate->what,
+                    reading.step() / column->unit.to_si, column->unit.symbol.view(),
+                    reading.is_one_parabola()
+                        ? "one parabola through all that was read"
+                        : fmt::format("the parabolas through {:.3g} min to both sides of a row",
+                                      reading.half() / 60.0)));
   }
 }
 

@@ -27,6 +27,8 @@ class SmoothReading {
   /// At an instant [s]; empty where too little was read around it.
   std::optional<double> at(double t) const;
   double half() const { return half_; }  ///< of the width of the parabolas [s]
+  /// Whether that reaches over the whole recording from anywhere in it: the parabolas are one.
+  bool is_one_parabola() const { return half_ >= times_.back() - times_.front(); }
   double step() const { return step_; }  ///< of the readout, in internal units
 
  private:

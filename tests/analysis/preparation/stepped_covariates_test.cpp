@@ -63,5 +63,27 @@ TEST(SteppedCovariates, AreSaidAndOthersAreLeftAsTheyAre) {
   EXPECT_TRUE(test::says(stepped, "the temperature is read in steps of 0.0625 degC"));
 }
 
+/// Of a room that warms up along one parabola in 246 min the widest window is best: 477 min to both
+/// sides of a row were said.
+TEST(SteppedCovariates, OneParabolaThroughAllIsCalledThat) {
+  const auto remark_of = [](double rise, double swing) {
+    Recording r;
+    r.channels = {{"time", unit::s, {}}, {"temperature", "degC"_unit, {}}};
+    for (int k = 1; k <= 123; ++k) {
+      const double u = k / 123.0;
+      r.channels[0].values.push_back(120.0 * k);
+      r.channels[1].values.push_back(
+          0.1 * std::round((20.0 + rise * u - u * u + swing * std::sin(30.0 * u)) / 0.1));
+    }
+    std::vector<Recording> recordings{r};
+    std::vector<std::string> remarks;
+    take_smooth(stepped_covariates(recordings), recordings, remarks);
+    return remarks.size() == 1 ? remarks.front() : "no remark";
+  };
+  const std::string wide = remark_of(2.0, 0.0), narrow = remark_of(3.0, 1.0);
+  EXPECT_TRUE(wide.ends_with("taken from one parabola through all that was read")) << wide;
+  EXPECT_TRUE(narrow.ends_with("the parabolas through 5.26 min to both sides of a row")) << narrow;
+}
+
 }  // namespace
 }  // namespace drift::preparation::stepped_covariates_test
