@@ -29,11 +29,23 @@ std::string where_text(const Rest& rest, std::size_t width) {
 
 void show_answer(const report::InBrief& brief, const Rest& rest) {
   const std::size_t width = terminal_width(report::least_brief_width);
+  if (terminal().json == Terminal::Shown::yes) {
+    show_text(rest.document);
+    if (!rest.files.empty()) say("\nWritten to {}: {}\n", rest.folder, fmt::join(rest.files, " "));
+    return;
+  }
   show_judgement(report::brief_text(brief, width), brief.tone);
   if (const std::string where = where_text(rest, width); !where.empty()) show("\n{}", where);
   if (terminal().details == Terminal::Shown::no) return;
   show("\n");
   show_verdicts(rest.details);
+}
+
+void show_beside_answer(const std::string& text) {
+  if (terminal().json == Terminal::Shown::yes)
+    say_text(text);
+  else
+    show_text(text);
 }
 
 }  // namespace drift::cli

@@ -89,7 +89,8 @@ ExitCode present(const mc::Study& study, report::BlindResults results, const std
   results.rivals = rivals_of(others, folder);
   const report::Report said =
       with_provenance(report::blind_report(results), report::provenance_of(study.path, {}));
-  show_answer(said.brief, {report::to_text(said), folder, report::write_report(said, folder)});
+  show_answer(said.brief, {report::to_text(said), folder, report::write_report(said, folder),
+                           said.document.second});
   say("A diagnosis took {:.3g} s on average, the longest {:.3g} s\n", results.summary.mean_seconds,
       results.summary.longest_seconds);
   for (const blind::TrialScore& score : results.scores)
@@ -167,6 +168,7 @@ Command blind_command() {
     app.add_flag("--rivals", a.blind.others.rivals, "score simple methods on the same trials too");
     add_progress(app, a.study.progress);
     add_full(app);
+    add_json(app);
   };
   return {
       "blind",

@@ -27,6 +27,10 @@ void add_full(CLI::App& app) {
   app.add_flag("--full")->description("print all tables behind the answer");
 }
 
+CLI::Option* add_json(CLI::App& app) {
+  return app.add_flag("--json")->description("print the answer as JSON, what -o writes, instead");
+}
+
 CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& what) {
   return app.add_option("-o,--output", path, what)->check(check_path);
 }

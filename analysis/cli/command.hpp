@@ -55,6 +55,8 @@ void add_study(CLI::App& app, StudyArguments& study);
 void add_progress(CLI::App& app, std::string& style);
 /// --full, of a command that prints its answer in brief (answer.hpp).
 void add_full(CLI::App& app);
+/// --json, of a command whose answer has a document: it goes to standard output alone.
+CLI::Option* add_json(CLI::App& app);
 /// --output, of a file or folder.
 CLI::Option* add_output(CLI::App& app, std::string& path, const std::string& what);
 /// A results folder of `run`.

@@ -18,7 +18,6 @@
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/base/results/turn.hpp"
-#include "mc/task/campaign.hpp"
 
 namespace drift::cli {
 namespace {
@@ -40,6 +39,8 @@ void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
     const ResultsTurn turn({folder, "diagnose"});
     rest.files = report::write_results(study, diagnosis, source, folder, beside);
   }
+  if (terminal().json == Terminal::Shown::yes)  // its pictures take a while
+    rest.document = report::diagnosis_report(study, diagnosis, source).document.second;
   show_answer(report::diagnosis_in_brief(diagnosis), rest);
 }
 
@@ -144,6 +145,7 @@ Command diagnose_command() {
             ->check(check_no_file);
     add_progress(app, a.study.progress);
     add_full(app);
+    add_json(app);
   };
   const auto run = [](const Arguments& a) {
     std::optional<std::vector<std::string>> advise;

@@ -28,7 +28,8 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   for (const std::string& remark : id.study.remarks) say("note: {}\n", remark);
   const report::Report said =
       with_provenance(report::case_report(study, id), report::provenance_of(study.path, paths));
-  Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
+  Rest rest{
+      cards_text(recordings, study.kind) + report::to_text(said), folder, {}, said.document.second};
   if (!folder.empty()) {
     const ResultsTurn turn({folder, "identify"});
     rest.files = report::write_report(said, folder);
@@ -51,7 +52,8 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   for (const std::string& remark : id.remarks) say("note: {}\n", remark);
   const report::Report said = with_provenance(report::identification_report(study, id),
                                               report::provenance_of(study.path, paths));
-  Rest rest{cards_text(recordings, study.kind) + report::to_text(said), folder, {}};
+  Rest rest{
+      cards_text(recordings, study.kind) + report::to_text(said), folder, {}, said.document.second};
   if (!folder.empty()) {
     const ResultsTurn turn({folder, "identify"});
     rest.files = report::write_identification(said, id, folder);
@@ -78,6 +80,7 @@ Command identify_command() {
         ->check(whole(0, last_run));
     add_progress(app, a.study.progress);
     add_full(app);
+    add_json(app);
   };
   return {"identify", group::recordings,
           "estimate the parameters of a recording (platform or strapdown), or of a simulated one",

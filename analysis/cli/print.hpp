@@ -24,6 +24,7 @@ struct Terminal {
   Shown remarks = Shown::yes;  ///< what say() prints
   Shown colour = Shown::no;    ///< of verdicts
   Shown details = Shown::no;   ///< what --full asks for, behind the answer
+  Shown json = Shown::no;      ///< the document of an answer in its place, what --json asks for
   enum class Lines { words, json };
   Lines lines = Lines::words;  ///< of standard error; json: each line a JSON object
 };

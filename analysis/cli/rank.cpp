@@ -24,7 +24,6 @@ struct RankArguments {
   std::size_t improve = 0;      ///< positions to propose
   std::string criterion = "A";  ///< A, D or a parameter
   std::string folder;           ///< empty: nothing is written
-  bool json = false;            ///< rank.json on stdout instead of tables
   Sharing sharing;
 };
 
@@ -98,18 +97,13 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
   const planning::PlanRanking ranking = planning::rank_plan(study, what, progress);
   const report::Report said =
       with_provenance(report::rank_report(study, ranking), report::provenance_of(study.path, {}));
-  Rest rest{options.json ? "" : report::to_text(said), options.folder, {}};
+  Rest rest{report::to_text(said), options.folder, {}, said.document.second};
   if (!options.folder.empty()) {
     const ResultsTurn turn({options.folder, "rank"});
     rest.files = report::write_report(said, options.folder);
   }
   if (shared) shared->end(ExitCode::ok);
-  if (!options.json) {
-    show_answer(said.brief, rest);
-    return ExitCode::ok;
-  }
-  show("{}", said.document.second);
-  if (!rest.files.empty()) say("\nWritten to {}: {}\n", options.folder, fmt::join(rest.files, " "));
+  show_answer(said.brief, rest);
   return ExitCode::ok;
 }
 
@@ -129,7 +123,7 @@ Command rank_command() {
                    "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
         ->needs(improve);
     add_output(app, a.rank.folder, "folder for rank.json, pictures and report");
-    app.add_flag("--json", a.rank.json, "rank.json on stdout instead of tables");
+    add_json(app);
     add_sharing(app, a.rank.sharing);
     add_progress(app, a.study.progress);
     add_full(app);

@@ -64,7 +64,8 @@ void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader&
   std::string details = report::to_text(said, report::study_width);
   if (results.provenance.back().first == "speed")
     details += fmt::format("\nspeed: {}\n", results.provenance.back().second);
-  show_answer(said.brief, {details, folder, report::write_report(said, folder)});
+  show_answer(said.brief,
+              {details, folder, report::write_report(said, folder), said.document.second});
 }
 
 }  // namespace

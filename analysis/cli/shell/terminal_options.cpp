@@ -59,6 +59,7 @@ Terminal terminal_of(const TerminalOptions& options, const CLI::App& given, Resu
   Terminal shown;
   shown.lines = terminal().lines;
   shown.details = has(given, "--full") ? yes : no;
+  shown.json = has(given, "--json") ? yes : no;
   shown.colour = shows_colour(options.color) ? yes : no;
   if (!options.quiet) return shown;
   shown.remarks = no;

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
@@ -135,12 +136,12 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);
   require_read_again(folder, reader, "The report", outcome.results);
-  show("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results, outcome.failed,
-       options.allowed_failures, outcome.digest);
+  show_beside_answer(fmt::format("runs {}, failed {} (allowed {})\nresults {}\n", outcome.results,
+                                 outcome.failed, options.allowed_failures, outcome.digest));
   if (work.stop_rules)
     if (const std::string ended = mc::state_of(reader, work.stop_rules).ended_by_rule();
         !ended.empty())
-      show("{}\n", ended);
+      show_beside_answer(ended + "\n");
   return outcome.code;
 }
 
@@ -155,13 +156,15 @@ Command run_command() {
     add_study(app, a.study);
     add_progress(app, a.study.progress);
     add_full(app);
+    CLI::Option* json = add_json(app);
     add_output(app, a.run.folder, "results folder; results/<name of the study file> by default");
     app.add_option("--runs", a.run.runs,
                    "override monte_carlo.runs; more than before extends a study")
         ->check(whole(1, 1000000000));
     add_sharing(app, a.run.sharing);
     app.add_flag("--dry-run", a.run.dry_run,
-                 "say what would be done and how long it takes, write nothing");
+                 "say what would be done and how long it takes, write nothing")
+        ->excludes(json);
     app.add_flag("--fail-fast", a.run.fail_fast, "stop at the first run that fails");
   };
   return {"run",

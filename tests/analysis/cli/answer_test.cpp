@@ -1,6 +1,7 @@
 // The answer comes first and in brief, the rest on request; a stop says what is kept.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "analysis/report/page/escape.hpp"
@@ -92,6 +93,27 @@ TEST(Terminal, FirstTheAnswerInTenLinesThenWhereThenOnRequestTheRest) {
     EXPECT_EQ(answer_of(full.out), answer_of(brief.out)) << "verdict first, here too";
     EXPECT_GT(lines_of(full.out).size(), lines_of(brief.out).size() + 10) << command;
   }
+}
+
+TEST(Terminal, WithJsonTheDocumentAloneIsOnStandardOutput) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  const std::vector<std::pair<std::string, std::string>> documents = {
+      {"identify " + study, "identification.json"},
+      {"identify " + study + " " + recording, "identification.json"},
+      {"rank " + study, "rank.json"},
+      {"diagnose " + study + " " + recording, "diagnosis.json"},
+      {"run " + study + " --runs 4", "summary.json"}};
+  for (const auto& [command, file] : documents) {
+    const std::string out = folder.file(file + "_of");
+    const Answer a = driftscope(command + " --json -o " + out);
+    ASSERT_EQ(a.code, 0) << command << a.err;
+    EXPECT_EQ(a.out, text_of(out + "/" + file)) << command;
+    EXPECT_TRUE(nlohmann::json::accept(a.out)) << command;
+    EXPECT_TRUE(has(a.err, "Written to " + out + ": ")) << a.err;
+  }
+  EXPECT_EQ(driftscope("run " + study + " --json --dry-run").code, 2);
 }
 
 TEST(Terminal, ABarThatEndsStandsBeforeTheAnswer) {
