@@ -44,7 +44,7 @@ std::vector<std::pair<std::string, std::string>> members_of(const std::string& v
 }
 
 /// A value without the blanks around it, a text without its quotes.
-std::string word_of(std::string_view member) {
+std::string without_quotes(std::string_view member) {
   const auto is_around = [](char c) { return c == ' ' || c == '"'; };
   while (!member.empty() && is_around(member.front())) member.remove_prefix(1);
   while (!member.empty() && is_around(member.back())) member.remove_suffix(1);
@@ -96,9 +96,9 @@ std::string short_value(const std::string& value) {
     else if (number)
       text += fmt::format("{} {:.6g}", name, number->si);
     else if (members.size() == 1 && member.find('"') != std::string::npos)
-      text += word_of(member);
+      text += without_quotes(member);
     else
-      text += fmt::format("{} {}", name, word_of(member));
+      text += fmt::format("{} {}", name, without_quotes(member));
   }
   return text.empty() ? value : text;
 }
