@@ -86,11 +86,11 @@ TEST(StudySessions, WhoIsAtWorkAndWhoWasKilledIsToldApart) {
   expect_says(said, " with exit code 0\n");
 }
 
-/// 200 runs of 15 ms on one thread take 3 s, the first line of JSON comes after 1 s; the rule never
+/// 200 runs of 10 ms on one thread take 2 s, the first line of JSON comes after 1 s; the rule never
 /// has enough.
 TEST(StudySessions, WithAStopRuleTheTotalIsCalledTheMost) {
   const ScratchFolder scratch;
-  const std::string run = "run " + titled_study(scratch, "half_width=0.000001 ms=15") +
+  const std::string run = "run " + titled_study(scratch, "half_width=0.000001 ms=10") +
                           " --threads 1 --progress json -o " + scratch.file("out");
   const std::string said = synthetic(run).err;
   expect_says(said, "\"total\":200,");
