@@ -156,19 +156,5 @@ TEST(NoiseCard, AStuckChannelAndRestsTooShortHaveNone) {
   EXPECT_EQ(noise_card(r, RecordingKind::platform, {}).missing, NoNoise::too_short);
 }
 
-TEST(ScatterAtRest, IsThatOfTheNoiseWhereRowsAreMissing) {
-  Recording r = platform(5e-6);
-  // A quarter of each position, in one place: by the number of its row a line has a kink there.
-  for (int position = 2; position >= 0; --position) {
-    const auto first = static_cast<std::ptrdiff_t>(r.rows()) / 3 * position + 40;
-    for (Channel& c : r.channels)
-      c.values.erase(c.values.begin() + first, c.values.begin() + first + 38);
-  }
-  const double found =
-      preparation::scatter_at_rest(r, preparation::resting_rows(r), accelerometer_channels);
-  // The median of nine variances of 107 degrees: 1.25 / 3 of sqrt(2 / 107), half of it of the root.
-  EXPECT_NEAR(found / 5e-6, 1.0, 5.0 * 0.5 * 1.25 / 3.0 * std::sqrt(2.0 / 107.0));
-}
-
 }  // namespace
 }  // namespace drift::noise_card_test
