@@ -183,7 +183,7 @@ void insert_row(Spaced& s, std::size_t row, double t) {
 
 Spaced with_begins(const Recording& recording, const mc::Study& study,
                    std::vector<std::string>& remarks, std::vector<std::string>& wrong) {
-  Spaced out{recording, row_spacing(recording, samples_of(study.plan))};
+  Spaced out{recording, row_spacing(recording)};
   const Gaps gaps(recording, study.plan, out.spacing);
   const RowSpacing spacing = out.spacing;
   const std::size_t n = recording.rows();
@@ -239,7 +239,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
 }
 
 bool rows_missing(const Recording& recording, const TestPlan& plan) {
-  const RowSpacing spacing = row_spacing(recording, samples_of(plan));
+  const RowSpacing spacing = row_spacing(recording);
   const Gaps gaps(recording, plan, spacing);
   for (std::size_t row = 0; row < recording.rows(); ++row)
     if (gaps.caged(row) ? gaps.began_earlier(row) : spacing.gap(row)) return true;

@@ -76,29 +76,26 @@ std::set<int> positions_of(const Recording& r) {
   return all;
 }
 
-/// Of all positions; NaN where they have their own.
-double common_sample(const std::vector<double>& samples) {
-  const auto [least, most] = std::ranges::minmax(samples);
-  return most - least > RecordingLimits::same_interval * least ? std::nan("") : least;
+double plan_sample(const mc::Study& study) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Position& p : study.plan.positions) shortest = std::min(shortest, p.sample);
+  return shortest;
 }
 
 /// What of a study's recordings is being made ready.
 struct Work {
   Prepared& p;
-  std::vector<double> samples;  ///< of the plan's positions [s]
-  double sample = 0.0;          ///< of all; NaN where they have their own
+  double sample = 0.0;  ///< of the plan [s]
   std::size_t most_rows = 0;
   std::vector<std::string>& wrong;
 };
 
 /// The one interval of all recordings; NaN if rows lie at other distances, in any of them.
-/// samples: of the plan's positions [s].
-double common_interval(const mc::Study& study, const std::vector<double>& samples,
-                       const std::vector<Recording>& recordings) {
+double common_interval(const mc::Study& study, const std::vector<Recording>& recordings) {
   double common = std::numeric_limits<double>::quiet_NaN();
   for (const Recording& r : recordings) {
     const double interval = sample_intervals(r).typical;
-    if (!row_spacing(r, samples).regular || rows_missing(r, study.plan)) return std::nan("");
+    if (!row_spacing(r).regular || rows_missing(r, study.plan)) return std::nan("");
     if (!std::isfinite(interval)) continue;
     if (std::isfinite(common) &&
         std::abs(interval - common) > RecordingLimits::same_interval * common)
@@ -179,7 +176,7 @@ void take_uneven_rows(const Work& work) {
   }
   if (!work.wrong.empty()) return;
   const std::size_t before = rows_of(p.recordings);
-  JoinLimits limits{work.samples, 1.0};
+  JoinLimits limits{work.sample, work.sample};
   const auto join = [&] {
     for (std::size_t k = 0; k < all.size(); ++k)
       p.recordings[k] = joined_rows(all[k].recording, all[k].spacing, limits);
@@ -187,7 +184,7 @@ void take_uneven_rows(const Work& work) {
   };
   std::size_t now = join();
   while (now > work.most_rows) {
-    limits.times *= RecordingLimits::coarser;
+    limits.length *= RecordingLimits::coarser;
     const std::size_t fewer = join();
     if (fewer == now) break;  // stretches of one row each
     now = fewer;
@@ -196,7 +193,7 @@ void take_uneven_rows(const Work& work) {
     p.remarks.push_back(fmt::format(
         "{} rows at several distances are taken as {} of up to {:.6g} s: means of accelerometers, "
         "angles at the end; effects faster than that are not looked for",
-        before, now, limits.times * std::ranges::max(limits.samples)));
+        before, now, limits.length));
 }
 
 }  // namespace
@@ -225,10 +222,9 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   const std::vector<SteppedCovariate> stepped = stepped_covariates(p.recordings);
   std::vector<std::vector<ColumnGaps>> gaps;
   for (Recording& r : p.recordings) gaps.push_back(bridge_covariates(r));
-  const std::vector<double> samples = samples_of(study.plan);
-  const Work work{p, samples, common_sample(samples), most_rows, wrong};
-  const double interval = common_interval(study, samples, p.recordings);
-  if (std::isfinite(interval) && std::isfinite(work.sample))
+  const Work work{p, plan_sample(study), most_rows, wrong};
+  const double interval = common_interval(study, p.recordings);
+  if (std::isfinite(interval))
     take_even_rows(work, interval);
   else if (rows_of(p.recordings) > p.recordings.size())
     take_uneven_rows(work);

@@ -54,13 +54,6 @@ struct TestPlan {
   double case_rate = 1.0 * detail::deg;  ///< of the turntable between two headings [rad/s]
 };
 
-/// The sample of each position [s].
-inline std::vector<double> samples_of(const TestPlan& plan) {
-  std::vector<double> samples;
-  for (const Position& p : plan.positions) samples.push_back(p.sample);
-  return samples;
-}
-
 /// What a preset leaves open.
 struct PlanDefaults {
   double dwell = 3600.0;           ///< [s]

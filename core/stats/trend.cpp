@@ -11,15 +11,12 @@
 
 namespace drift::stats {
 
-Stretch without_trend(const Stretch& stretch, int degree, std::span<const double> times) {
+Stretch without_trend(const Stretch& stretch, int degree) {
   const auto n = static_cast<Eigen::Index>(stretch.size());
   if (n <= degree + 1) return Stretch(stretch.size(), 0.0);
   Eigen::MatrixXd powers(n, degree + 1);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    const double passed = times.empty() ? static_cast<double>(k) : times[row] - times.front();
-    const double all = times.empty() ? static_cast<double>(n - 1) : times.back() - times.front();
-    const double x = 2.0 * passed / all - 1.0;
+    const double x = 2.0 * static_cast<double>(k) / static_cast<double>(n - 1) - 1.0;
     double power = 1.0;
     for (Eigen::Index p = 0; p <= degree; ++p, power *= x) powers(k, p) = power;
   }
@@ -46,17 +43,12 @@ double usual_distance(const std::vector<Stretch>& rests) {
 
 }  // namespace
 
-Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree, double by_chance,
-                                     const std::vector<std::vector<double>>& times) {
-  const auto rest_of = [&](std::size_t i) {
-    return without_trend(stretches[i], degree,
-                         times.empty() ? std::span<const double>() : std::span(times[i]));
-  };
+Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree, double by_chance) {
   Detrended out;
   std::size_t samples = 0;
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    out.stretches.push_back(rest_of(i));
-    samples += stretches[i].size();
+  for (const Stretch& s : stretches) {
+    out.stretches.push_back(without_trend(s, degree));
+    samples += s.size();
   }
   if (samples == 0) return out;
   const double far = -normal_quantile(0.5 * by_chance / static_cast<double>(samples));
@@ -77,7 +69,7 @@ Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree,
           isolated.emplace(i, k);
           stretch[k] -= rest[k];
         }
-      rest = rest_of(i);
+      rest = without_trend(stretch, degree);
       any = true;
     }
   }

@@ -59,18 +59,6 @@ double as_written(double sample) {
                     : std::round(sample / unit) * unit;
 }
 
-/// The sample of a dwell whose rows are evenly spaced, and otherwise than is usual [s].
-std::optional<double> own_sample(const std::vector<double>& time, std::size_t first,
-                                 std::size_t end, double usual) {
-  constexpr double same = 0.01;  // steps of a clock that jitters
-  if (first + 2 >= end) return {};
-  const auto alike = [](double a, double b) { return std::abs(a / b - 1.0) < same; };
-  const double mean = (time[end - 1] - time[first]) / static_cast<double>(end - 1 - first);
-  for (std::size_t row = first + 1; row < end; ++row)
-    if (!alike(time[row] - time[row - 1], mean)) return {};
-  return alike(mean, usual) ? std::nullopt : std::optional(as_written(mean));
-}
-
 /// The row of a dwell's first ones that shows its attitude: the second, where the first is of the
 /// turn or of the position before (a jump between them, none behind).
 std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t end) {
@@ -104,11 +92,8 @@ RecordedPlan recorded_plan(const Recording& r) {
     std::size_t dwell = first;
     while (phase && dwell + 1 < end && phase->values[dwell] == 1.0) ++dwell;
     const std::size_t shows = row_of_attitude(r, dwell, end);
-    const auto own = own_sample(time->values, dwell, end, plan.sample);
-    const double sample = own.value_or(plan.sample);
-    const double span = time->values[end - 1] - time->values[dwell] + sample;
-    RecordedPlan::Position p{std::round(span / sample) * sample, "", dwell > first, {}};
-    p.sample = own;
+    const double span = time->values[end - 1] - time->values[dwell] + plan.sample;
+    RecordedPlan::Position p{std::round(span / plan.sample) * plan.sample, "", dwell > first, {}};
     if (heading) p.heading = heading->values[end - 1];
     const auto shown = cardinal_axes(r, shows, p.heading.value_or(0.0));
     if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it

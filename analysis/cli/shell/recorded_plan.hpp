@@ -16,7 +16,6 @@ struct RecordedPlan {
     bool torqued = false;             ///< slewed to, as the phases say
     std::optional<double> heading{};  ///< of the case [rad], where it is recorded
     std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
-    std::optional<double> sample{};   ///< its own, where it is another than that of the plan [s]
   };
   double sample = 0.0;          ///< [s]
   bool level = false;           ///< Earth rate is commanded in the dwells

@@ -40,7 +40,6 @@ std::string position_text(const RecordedPlan::Position& p, std::size_t number, D
     text += fmt::format("# or, of a case at 45 deg: axes = \"{}\" and case_heading = \"45 deg\"\n",
                         p.turned);
   if (dwells == Dwells::as_recorded) text += fmt::format("dwell = \"{:.12g} s\"\n", p.length);
-  if (p.sample) text += fmt::format("sample = \"{:.9g} s\"\n", *p.sample);
   return text;
 }
 

@@ -41,11 +41,6 @@ class Joiner {
     return all;
   }
 
-  /// Of the plan, at a row [s].
-  double sample(std::size_t row) const {
-    return limits_.sample_at(position_ ? position_->values[row] : 1.0);
-  }
-
   /// Angle by which the platform may turn against gravity in a span.
   double turned(const RowSpan& s) const {
     return (command(s.first) + detail::earth_rate) * (time_[s.end - 1] - r_.begins[s.first]);
@@ -72,7 +67,7 @@ class Joiner {
 
   /// Cuts a stretch of one command into joined rows.
   void divide(const RowSpan& stretch, std::vector<RowSpan>& out) const {
-    double length = limits_.times * sample(stretch.first);
+    double length = limits_.length;
     if (phase_ && phase_->values[stretch.first] == 1.0)
       length = std::min(length, largest_turn / (command(stretch.first) + detail::earth_rate));
     const double origin = r_.begins[stretch.first];
@@ -117,7 +112,7 @@ double mean_of(const std::vector<double>& values, const RowSpan& s, const Record
 
 Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
                       const JoinLimits& limits) {
-  DRIFT_EXPECTS(recording.begins.size() == recording.rows() && !limits.samples.empty());
+  DRIFT_EXPECTS(recording.begins.size() == recording.rows() && limits.length > 0.0);
   const Joiner joiner(recording, spacing, limits);
   const std::vector<RowSpan> spans = joiner.spans();
   const auto& time = recording.find("time")->values;
@@ -128,7 +123,7 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
     const double begin = recording.begins[s.first], length = time[s.end - 1] - begin;
     out.lines.push_back(recording.lines[s.end - 1]);
     out.begins.push_back(begin);
-    out.samples.push_back(length / joiner.sample(s.first));
+    out.samples.push_back(length / limits.sample);
   }
   for (const Channel& c : recording.channels) {
     Channel joined{c.name, c.unit, {}};
@@ -148,7 +143,7 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
         joined.values.push_back(mean.value);
         // Three axes share one weight: that of the least measured.
         if (std::isfinite(mean.value))
-          out.samples[k] = std::min(out.samples[k], mean.seconds / joiner.sample(s.first));
+          out.samples[k] = std::min(out.samples[k], mean.seconds / limits.sample);
       } else {
         joined.values.push_back(mean_of(c.values, s, recording, time));
       }

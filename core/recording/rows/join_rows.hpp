@@ -1,9 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 #include "core/recording/recording.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 
@@ -11,15 +7,8 @@ namespace drift {
 
 /// How far rows may be joined.
 struct JoinLimits {
-  /// Of each position of the plan, for which the noise is declared [s]; positions beyond have the
-  /// last one.
-  std::vector<double> samples{60.0};
-  double times = 1.0;  ///< that a joined row lasts such a sample
-
-  double sample_at(double position) const {
-    const double last = static_cast<double>(samples.size());
-    return samples[static_cast<std::size_t>(std::clamp(position, 1.0, last)) - 1];
-  }
+  double length = 60.0;  ///< of a joined row [s]
+  double sample = 60.0;  ///< of the plan, whose noise is declared [s]
 };
 
 /// The recording with its fine rows joined, stretch by stretch, to rows of nearly equal length; a

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "core/stats/median.hpp"
 
@@ -21,22 +20,17 @@ struct SpacedRows {
   std::size_t first = 0, end = 0;
   bool position_begins = false;
   double phase = 0.0;
-  double sample = 1.0;  ///< of the plan; 1 without one
 };
 
-std::vector<SpacedRows> stretches_of(const Recording& r, const std::vector<double>& samples) {
+std::vector<SpacedRows> stretches_of(const Recording& r) {
   const Channel* position = r.find("position");
   const Channel* phase = r.find("phase");
   std::vector<SpacedRows> all;
   for (std::size_t row = 0; row < r.rows(); ++row) {
     const bool begins =
         row == 0 || (position && position->values[row] != position->values[row - 1]);
-    if (begins || (phase && phase->values[row] != phase->values[row - 1])) {
-      const double number = position ? position->values[row] : 1.0;
-      const bool planned = number >= 1.0 && number <= static_cast<double>(samples.size());
-      all.push_back({row, row, begins, phase && phase->values[row] == 1.0 ? 1.0 : 0.0,
-                     planned ? samples[static_cast<std::size_t>(number) - 1] : 1.0});
-    }
+    if (begins || (phase && phase->values[row] != phase->values[row - 1]))
+      all.push_back({row, row, begins, phase && phase->values[row] == 1.0 ? 1.0 : 0.0});
     all.back().end = row + 1;
   }
   return all;
@@ -65,25 +59,13 @@ void fill_usual(const SpacedRows& s, double of_phase, RowSpacing& out) {
   }
 }
 
-/// The usual step of a stretch of a few rows, from that of its phase: its own where they are
-/// shorter than those, or three or more are alike.
-double usual_of_few(const SpacedRows& s, double of_phase, const RowSpacing& out) {
-  constexpr std::ptrdiff_t several = 3;
-  const auto own = std::span(out.step).subspan(s.first + 1, s.end - s.first - 1);
-  if (own.empty()) return of_phase;
-  const auto [least, most] = std::ranges::minmax(own);
-  if (least < (1.0 - alike) * of_phase) return least;
-  return std::ssize(own) >= several && most - least < alike * least ? least : of_phase;
-}
-
-/// Steps within the stretches of a phase, in samples of their positions.
+/// Steps within the stretches of a phase.
 std::vector<double> steps_of(const std::vector<SpacedRows>& stretches, double phase,
                              const RowSpacing& out) {
   std::vector<double> steps;
   for (const SpacedRows& s : stretches)
     if (s.phase == phase)
-      for (std::size_t row = s.first + 1; row < s.end; ++row)
-        steps.push_back(out.step[row] / s.sample);
+      for (std::size_t row = s.first + 1; row < s.end; ++row) steps.push_back(out.step[row]);
   return steps;
 }
 
@@ -98,12 +80,12 @@ bool RowSpacing::longer(std::size_t row) const {
   return step[row] > usual[row] + 0.5 * std::min(usual[row], usual[row - 1]);
 }
 
-RowSpacing row_spacing(const Recording& recording, const std::vector<double>& samples) {
+RowSpacing row_spacing(const Recording& recording) {
   const std::size_t n = recording.rows();
   const auto& t = recording.find("time")->values;
   RowSpacing out{std::vector<double>(n, nan_value), std::vector<double>(n, nan_value)};
   for (std::size_t row = 1; row < n; ++row) out.step[row] = t[row] - t[row - 1];
-  const std::vector<SpacedRows> stretches = stretches_of(recording, samples);
+  const std::vector<SpacedRows> stretches = stretches_of(recording);
   // A stretch of a few rows, some of which may be lost, is like the others of its phase; a phase of
   // single rows is like the whole recording.
   std::array<double, 2> of_phase{nan_value, nan_value};
@@ -113,13 +95,12 @@ RowSpacing row_spacing(const Recording& recording, const std::vector<double>& sa
   for (const int phase : {0, 1})
     if (std::isnan(of_phase[phase])) of_phase[phase] = of_phase[1 - phase];
   for (const SpacedRows& s : stretches) {
-    const double usual = of_phase[s.phase == 1.0 ? 1 : 0] * s.sample;
+    const double usual = of_phase[s.phase == 1.0 ? 1 : 0];
     if (s.end - s.first > few_steps)
       fill_usual(s, usual, out);
     else
       std::fill(out.usual.begin() + static_cast<std::ptrdiff_t>(s.first),
-                out.usual.begin() + static_cast<std::ptrdiff_t>(s.end),
-                usual_of_few(s, usual, out));
+                out.usual.begin() + static_cast<std::ptrdiff_t>(s.end), usual);
   }
 
   out.shortest = std::numeric_limits<double>::infinity();

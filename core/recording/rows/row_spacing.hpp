@@ -16,8 +16,7 @@ struct RowSpacing {
   std::vector<double> step;  ///< since the row before [s]; NaN for the first
   /// What is usual around the row [s]: the median of the steps of the nearest rows of the same
   /// position and phase, so that rows 1 s apart in slews and 60 s apart in dwells are both usual. A
-  /// stretch of a few rows is like the others of its phase, unless its steps are shorter or, three
-  /// or more, alike: no loss of rows makes them so. NaN where the recording does not tell.
+  /// stretch of a few rows is like the others of its phase. NaN where the recording does not tell.
   std::vector<double> usual;
 
   /// Rows are missing in front of this one: halfway to one missing row. (At the first row of a
@@ -35,8 +34,6 @@ struct RowSpacing {
   double shortest = 0.0, longest = 0.0;  ///< of what is usual [s]
   double jitter = 0.0;  ///< rms deviation of the steps from what is usual, gaps left out [s]
 };
-/// samples: of each position of the plan [s], where there is one; positions may have their own, and
-/// are then alike in such samples.
-RowSpacing row_spacing(const Recording& recording, const std::vector<double>& samples = {});
+RowSpacing row_spacing(const Recording& recording);
 
 }  // namespace drift
