@@ -190,18 +190,27 @@ double scatter_at_rest(const Recording& recording, const std::vector<RestingRows
                        const ChannelTriple& channels) {
   constexpr std::size_t taken = trend_degree + 1, least_free = 3;
   std::vector<double> variances;
+  const Channel* time = recording.find("time");
+  if (time == nullptr) return 0.0;
   for (const std::string_view name : channels.names) {
     const Channel* channel = recording.find(name);
     if (channel == nullptr) continue;
     std::vector<stats::Stretch> all;
+    std::vector<std::vector<double>> times;  // rows and samples may be missing
     for (const RestingRows& rest : rests) {
       stats::Stretch values;
+      std::vector<double> at;
       for (std::size_t k = rest.first; k <= rest.last; ++k)
-        if (std::isfinite(channel->values[k])) values.push_back(channel->values[k]);
-      if (values.size() >= taken + least_free) all.push_back(std::move(values));
+        if (std::isfinite(channel->values[k])) {
+          values.push_back(channel->values[k]);
+          at.push_back(time->values[k]);
+        }
+      if (values.size() < taken + least_free) continue;
+      all.push_back(std::move(values));
+      times.push_back(std::move(at));
     }
     for (const stats::Stretch& left :
-         stats::without_trend_and_isolated(std::move(all), trend_degree, isolated_by_chance)
+         stats::without_trend_and_isolated(std::move(all), times, trend_degree, isolated_by_chance)
              .stretches) {
       const auto free = static_cast<double>(left.size() - taken);
       double squares = 0.0;

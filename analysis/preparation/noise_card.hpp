@@ -55,8 +55,9 @@ struct NoiseCard {
 NoiseCard noise_card(const Recording& recording, RecordingKind kind,
                      const std::vector<RestingRows>& rests);
 
-/// One sigma of a sample, as it scatters about the polynomial of fourth degree of its rest: of
-/// three channels alike, median over them and the rests, isolated samples taken off.
+/// One sigma of a sample, as it scatters about the polynomial of fourth degree in time of its rest:
+/// of three channels alike, median over them and the rests, isolated samples taken off. Rows may be
+/// missing.
 /// For rests that are too short for a card (eight rows do); 0 where there is none, or no scatter.
 double scatter_at_rest(const Recording& recording, const std::vector<RestingRows>& rests,
                        const ChannelTriple& channels);

@@ -3,20 +3,25 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
+#include "core/base/check.hpp"
 #include "core/stats/median.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::stats {
 
-Stretch without_trend(const Stretch& stretch, int degree) {
+Stretch without_trend(const Stretch& stretch, const std::vector<double>& time, int degree) {
+  DRIFT_EXPECTS(time.size() == stretch.size());
   const auto n = static_cast<Eigen::Index>(stretch.size());
   if (n <= degree + 1) return Stretch(stretch.size(), 0.0);
   Eigen::MatrixXd powers(n, degree + 1);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double x = 2.0 * static_cast<double>(k) / static_cast<double>(n - 1) - 1.0;
+    const double x =
+        2.0 * (time[static_cast<std::size_t>(k)] - time.front()) / (time.back() - time.front()) -
+        1.0;
     double power = 1.0;
     for (Eigen::Index p = 0; p <= degree; ++p, power *= x) powers(k, p) = power;
   }
@@ -43,12 +48,15 @@ double usual_distance(const std::vector<Stretch>& rests) {
 
 }  // namespace
 
-Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree, double by_chance) {
+Detrended without_trend_and_isolated(std::vector<Stretch> stretches,
+                                     const std::vector<std::vector<double>>& times, int degree,
+                                     double by_chance) {
+  DRIFT_EXPECTS(times.size() == stretches.size());
   Detrended out;
   std::size_t samples = 0;
-  for (const Stretch& s : stretches) {
-    out.stretches.push_back(without_trend(s, degree));
-    samples += s.size();
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    out.stretches.push_back(without_trend(stretches[i], times[i], degree));
+    samples += stretches[i].size();
   }
   if (samples == 0) return out;
   const double far = -normal_quantile(0.5 * by_chance / static_cast<double>(samples));
@@ -69,12 +77,21 @@ Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree,
           isolated.emplace(i, k);
           stretch[k] -= rest[k];
         }
-      rest = without_trend(stretch, degree);
+      rest = without_trend(stretch, times[i], degree);
       any = true;
     }
   }
   out.isolated = isolated.size();
   return out;
+}
+
+Detrended without_trend_and_isolated(std::vector<Stretch> stretches, int degree, double by_chance) {
+  std::vector<std::vector<double>> times;
+  for (const Stretch& s : stretches) {
+    times.emplace_back(s.size());
+    std::iota(times.back().begin(), times.back().end(), 0.0);
+  }
+  return without_trend_and_isolated(std::move(stretches), times, degree, by_chance);
 }
 
 }  // namespace drift::stats

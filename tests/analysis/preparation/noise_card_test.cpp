@@ -144,6 +144,31 @@ TEST(NoiseCard, AGapEndsAStretchAndUnequalRowsAreRefused) {
   EXPECT_TRUE(none.channels.empty());
 }
 
+TEST(NoiseCard, MissingRowsAndSamplesDoNotAddToTheScatter) {
+  const auto scatter = [](const Recording& r) {
+    return preparation::scatter_at_rest(r, preparation::resting_rows(r), accelerometer_channels);
+  };
+  const Recording all = platform(5e-6);
+  // Of nine variances, each known to sqrt(2/145) = 12 %, the median is known to 5 %: of sigma four
+  // times half of that.
+  EXPECT_NEAR(scatter(all), 5e-6, 0.1 * 5e-6);
+  Recording rows = all, samples = all;
+  for (std::size_t k = all.rows(); k-- > 0;) {
+    const std::size_t of_rest = k % 160;
+    if (of_rest != 30 && of_rest != 31 && of_rest != 70 && of_rest != 110 && of_rest != 140)
+      continue;
+    for (std::size_t c = 0; c < 6; ++c) {
+      if (c >= 3) samples.channels[c].values[k] = std::nan("");
+      auto& values = rows.channels[c].values;
+      values.erase(values.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+  // Five squares fewer of 145 move a variance by sqrt(2 * 5) / 145 = 2.2 %, of nine none by four
+  // times that, and sigma by half. (Earth rate moves what is read by 400 sigma from row to row.)
+  EXPECT_NEAR(scatter(rows), scatter(all), 0.05 * scatter(all));
+  EXPECT_DOUBLE_EQ(scatter(samples), scatter(rows));
+}
+
 TEST(NoiseCard, AStuckChannelAndRestsTooShortHaveNone) {
   Recording r = platform(5e-6);
   for (double& v : r.channels[3].values) v = 0.25;
