@@ -11,6 +11,7 @@
 #include "analysis/preparation/command_change.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/plan/case_heading.hpp"
+#include "core/plan/plan_rows.hpp"
 #include "core/recording/recording_channels.hpp"
 
 namespace drift::preparation {
@@ -124,10 +125,7 @@ class Gaps {
  private:
   /// When the position before ended; a test begins at 0.
   double ended_before(std::size_t row) const { return row > 0 ? time_[row - 1] : 0.0; }
-  const Position* planned(std::size_t row) const {
-    const auto number = static_cast<std::size_t>(std::max(0.0, position_[row]));
-    return number >= 1 && number <= plan_.positions.size() ? &plan_.positions[number - 1] : nullptr;
-  }
+  const Position* planned(std::size_t row) const { return planned_position(plan_, position_[row]); }
   bool same_command(std::size_t row) const {
     return command_step(row) < RecordingLimits::gap_command;
   }
@@ -183,7 +181,7 @@ void insert_row(Spaced& s, std::size_t row, double t) {
 
 Spaced with_begins(const Recording& recording, const mc::Study& study,
                    std::vector<std::string>& remarks, std::vector<std::string>& wrong) {
-  Spaced out{recording, row_spacing(recording)};
+  Spaced out{recording, row_spacing(recording, planned_samples(recording, study.plan))};
   const Gaps gaps(recording, study.plan, out.spacing);
   const RowSpacing spacing = out.spacing;
   const std::size_t n = recording.rows();
@@ -239,7 +237,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
 }
 
 bool rows_missing(const Recording& recording, const TestPlan& plan) {
-  const RowSpacing spacing = row_spacing(recording);
+  const RowSpacing spacing = row_spacing(recording, planned_samples(recording, plan));
   const Gaps gaps(recording, plan, spacing);
   for (std::size_t row = 0; row < recording.rows(); ++row)
     if (gaps.caged(row) ? gaps.began_earlier(row) : spacing.gap(row)) return true;

@@ -24,6 +24,7 @@
 #include "analysis/preparation/plan_check.hpp"
 #include "analysis/preparation/rounding_noise.hpp"
 #include "core/base/check.hpp"
+#include "core/plan/plan_rows.hpp"
 #include "core/plan/shifted_numbers.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/rows/join_rows.hpp"
@@ -76,30 +77,36 @@ std::set<int> positions_of(const Recording& r) {
   return all;
 }
 
-double plan_sample(const mc::Study& study) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Position& p : study.plan.positions) shortest = std::min(shortest, p.sample);
-  return shortest;
+/// The plan's one sample of all rows [s]; NaN if their positions have several.
+double common_sample(const mc::Study& study, const std::vector<Recording>& recordings) {
+  double common = nan_value;
+  for (const Recording& r : recordings)
+    for (const double sample : planned_samples(r, study.plan)) {
+      if (std::isfinite(common) && sample != common) return nan_value;
+      common = sample;
+    }
+  return common;
 }
 
 /// What of a study's recordings is being made ready.
 struct Work {
   Prepared& p;
-  double sample = 0.0;  ///< of the plan [s]
+  double sample = 0.0;  ///< of the plan [s]; NaN: positions have several
   std::size_t most_rows = 0;
   std::vector<std::string>& wrong;
 };
 
 /// The one interval of all recordings; NaN if rows lie at other distances, in any of them.
 double common_interval(const mc::Study& study, const std::vector<Recording>& recordings) {
-  double common = std::numeric_limits<double>::quiet_NaN();
+  double common = nan_value;
   for (const Recording& r : recordings) {
     const double interval = sample_intervals(r).typical;
-    if (!row_spacing(r).regular || rows_missing(r, study.plan)) return std::nan("");
+    if (!row_spacing(r, planned_samples(r, study.plan)).regular || rows_missing(r, study.plan))
+      return nan_value;
     if (!std::isfinite(interval)) continue;
     if (std::isfinite(common) &&
         std::abs(interval - common) > RecordingLimits::same_interval * common)
-      return std::nan("");
+      return nan_value;
     common = interval;
   }
   return common;
@@ -176,15 +183,18 @@ void take_uneven_rows(const Work& work) {
   }
   if (!work.wrong.empty()) return;
   const std::size_t before = rows_of(p.recordings);
-  JoinLimits limits{work.sample, work.sample};
+  double length = 1.0, longest = 0.0;  // of a joined row [samples of the plan], [s]
   const auto join = [&] {
-    for (std::size_t k = 0; k < all.size(); ++k)
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const JoinLimits limits{length, planned_samples(all[k].recording, p.study.plan)};
+      for (const double sample : limits.planned) longest = std::max(longest, length * sample);
       p.recordings[k] = joined_rows(all[k].recording, all[k].spacing, limits);
+    }
     return rows_of(p.recordings);
   };
   std::size_t now = join();
   while (now > work.most_rows) {
-    limits.length *= RecordingLimits::coarser;
+    length *= RecordingLimits::coarser;
     const std::size_t fewer = join();
     if (fewer == now) break;  // stretches of one row each
     now = fewer;
@@ -193,7 +203,7 @@ void take_uneven_rows(const Work& work) {
     p.remarks.push_back(fmt::format(
         "{} rows at several distances are taken as {} of up to {:.6g} s: means of accelerometers, "
         "angles at the end; effects faster than that are not looked for",
-        before, now, limits.length));
+        before, now, longest));
 }
 
 }  // namespace
@@ -221,10 +231,11 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   const Rounding rounding = rounding_of(p.recordings);
   const std::vector<SteppedCovariate> stepped = stepped_covariates(p.recordings);
   std::vector<std::vector<ColumnGaps>> gaps;
-  for (Recording& r : p.recordings) gaps.push_back(bridge_covariates(r));
-  const Work work{p, plan_sample(study), most_rows, wrong};
+  for (Recording& r : p.recordings)
+    gaps.push_back(bridge_covariates(r, planned_samples(r, study.plan)));
+  const Work work{p, common_sample(study, p.recordings), most_rows, wrong};
   const double interval = common_interval(study, p.recordings);
-  if (std::isfinite(interval))
+  if (std::isfinite(interval) && std::isfinite(work.sample))
     take_even_rows(work, interval);
   else if (rows_of(p.recordings) > p.recordings.size())
     take_uneven_rows(work);

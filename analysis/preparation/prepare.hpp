@@ -36,10 +36,11 @@ struct Prepared {
 /// samples become NaN.
 ///
 /// Rows may lie at any distance from each other, in one recording and in several. Rows that are
-/// evenly spaced throughout stay as they are, or a whole number of them becomes one (reduced()).
-/// Others have each their own interval (with_begins()), and fine ones are joined (joined_rows()) to
-/// samples of the plan, or coarser ones above `most_rows` rows. Declared is the noise of the mean
-/// over a sample of the plan: `samples` of the recordings says how many a row is worth.
+/// evenly spaced throughout, of positions that have one sample in the plan, stay as they are, or a
+/// whole number of them becomes one (reduced()). Others have each their own interval
+/// (with_begins()), and fine ones are joined (joined_rows()) to samples of their position in the
+/// plan, or coarser ones above `most_rows` rows. Declared is the noise of the mean over a sample of
+/// the plan: `samples` of the recordings says how many a row is worth.
 ///
 /// Columns that terms may follow have straight lines where no reading is missing that is usual
 /// (bridge_covariates()); what hangs on them elsewhere is left out (leave_out_unknown()). Of a

@@ -34,6 +34,20 @@ std::string listed(std::vector<std::size_t> numbers) {
 
 }  // namespace
 
+const Position* planned_position(const TestPlan& plan, double number) {
+  const auto place = static_cast<std::size_t>(std::max(0.0, number));
+  return place >= 1 && place <= plan.positions.size() ? &plan.positions[place - 1] : nullptr;
+}
+
+std::vector<double> planned_samples(const Recording& recording, const TestPlan& plan) {
+  std::vector<double> samples(recording.rows(), plan.positions.front().sample);
+  if (const Channel* position = recording.find("position"))
+    for (std::size_t row = 0; row < samples.size(); ++row)
+      if (const Position* p = planned_position(plan, position->values[row]))
+        samples[row] = p->sample;
+  return samples;
+}
+
 std::vector<std::string> rows_other_than_planned(const Recording& recording, const TestPlan& plan) {
   const auto rows = dwell_rows(recording, plan.positions.size());
   std::vector<std::size_t> others;

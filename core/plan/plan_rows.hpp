@@ -8,6 +8,14 @@
 
 namespace drift {
 
+/// The position of the plan that a recording calls by this number, from 1 on; null: the plan has
+/// none.
+const Position* planned_position(const TestPlan& plan, double number);
+
+/// The plan's sample at each row of a recording [s]; in a position that the plan does not have
+/// (lay_out() refuses it), or of a recording that names none, that of the first.
+std::vector<double> planned_samples(const Recording& recording, const TestPlan& plan);
+
 /// Where a position has more or fewer rows in its dwell than the plan would give, in words: one
 /// remark, or none. It is allowed; the recording's own rows are used, and each counts as one
 /// measurement with the noise of [readout].

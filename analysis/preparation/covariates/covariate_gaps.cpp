@@ -11,8 +11,8 @@ namespace {
 
 /// Seconds that every row lasts; where rows are missing, or the platform was caged in between, what
 /// is usual.
-std::vector<double> lengths_of_rows(const Recording& r) {
-  const RowSpacing spacing = row_spacing(r);
+std::vector<double> lengths_of_rows(const Recording& r, const std::vector<double>& planned) {
+  const RowSpacing spacing = row_spacing(r, planned);
   std::vector<double> lengths(r.rows());
   for (std::size_t row = 0; row < r.rows(); ++row) {
     const double length = row == 0 || spacing.gap(row) ? spacing.usual[row] : spacing.step[row];
@@ -79,7 +79,8 @@ std::vector<FollowedColumn> followed_columns() {
   return all;
 }
 
-std::vector<ColumnGaps> bridge_covariates(Recording& recording) {
+std::vector<ColumnGaps> bridge_covariates(Recording& recording,
+                                          const std::vector<double>& planned) {
   std::vector<ColumnGaps> all;
   std::vector<double> lengths, recorded;
   for (FollowedColumn& column : followed_columns()) {
@@ -89,7 +90,7 @@ std::vector<ColumnGaps> bridge_covariates(Recording& recording) {
     const auto missing = [&](std::size_t row) { return !std::isfinite(values[row]); };
     ColumnGaps gaps{std::move(column), 0, values.size()};
     if (lengths.empty()) {
-      lengths = lengths_of_rows(recording);
+      lengths = lengths_of_rows(recording, planned);
       double sum = 0.0;
       for (const double length : lengths) recorded.push_back(sum += length);
     }

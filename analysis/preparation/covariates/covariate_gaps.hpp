@@ -29,7 +29,9 @@ struct ColumnGaps {
 /// a row is taken to be known if no reading is farther from it than readings usually are from each
 /// other there (row_spacing() of those), in the time that was recorded; of all that are usual one
 /// may be missing. Where more are, nobody knows what was in between, and the rows stay without a
-/// number. A single reading holds for all rows; a column without any is left as it is.
-std::vector<ColumnGaps> bridge_covariates(Recording& recording);
+/// number. A single reading holds for all rows; a column without any is left as it is. `planned`:
+/// as for row_spacing().
+std::vector<ColumnGaps> bridge_covariates(Recording& recording,
+                                          const std::vector<double>& planned = {});
 
 }  // namespace drift::preparation

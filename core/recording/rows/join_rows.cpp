@@ -67,7 +67,7 @@ class Joiner {
 
   /// Cuts a stretch of one command into joined rows.
   void divide(const RowSpan& stretch, std::vector<RowSpan>& out) const {
-    double length = limits_.length;
+    double length = limits_.length * limits_.planned[stretch.first];
     if (phase_ && phase_->values[stretch.first] == 1.0)
       length = std::min(length, largest_turn / (command(stretch.first) + detail::earth_rate));
     const double origin = r_.begins[stretch.first];
@@ -112,7 +112,8 @@ double mean_of(const std::vector<double>& values, const RowSpan& s, const Record
 
 Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
                       const JoinLimits& limits) {
-  DRIFT_EXPECTS(recording.begins.size() == recording.rows() && limits.length > 0.0);
+  DRIFT_EXPECTS(recording.begins.size() == recording.rows() && limits.length > 0.0 &&
+                limits.planned.size() == recording.rows());
   const Joiner joiner(recording, spacing, limits);
   const std::vector<RowSpan> spans = joiner.spans();
   const auto& time = recording.find("time")->values;
@@ -123,7 +124,7 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
     const double begin = recording.begins[s.first], length = time[s.end - 1] - begin;
     out.lines.push_back(recording.lines[s.end - 1]);
     out.begins.push_back(begin);
-    out.samples.push_back(length / limits.sample);
+    out.samples.push_back(length / limits.planned[s.first]);
   }
   for (const Channel& c : recording.channels) {
     Channel joined{c.name, c.unit, {}};
@@ -143,7 +144,7 @@ Recording joined_rows(const Recording& recording, const RowSpacing& spacing,
         joined.values.push_back(mean.value);
         // Three axes share one weight: that of the least measured.
         if (std::isfinite(mean.value))
-          out.samples[k] = std::min(out.samples[k], mean.seconds / limits.sample);
+          out.samples[k] = std::min(out.samples[k], mean.seconds / limits.planned[s.first]);
       } else {
         joined.values.push_back(mean_of(c.values, s, recording, time));
       }

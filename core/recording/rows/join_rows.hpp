@@ -7,8 +7,8 @@ namespace drift {
 
 /// How far rows may be joined.
 struct JoinLimits {
-  double length = 60.0;  ///< of a joined row [s]
-  double sample = 60.0;  ///< of the plan, whose noise is declared [s]
+  double length = 1.0;          ///< of a joined row [samples of the plan]
+  std::vector<double> planned;  ///< at each row the plan's sample, whose noise is declared [s]
 };
 
 /// The recording with its fine rows joined, stretch by stretch, to rows of nearly equal length; a

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "core/base/check.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift {
@@ -59,14 +61,55 @@ void fill_usual(const SpacedRows& s, double of_phase, RowSpacing& out) {
   }
 }
 
-/// Steps within the stretches of a phase.
+/// Steps within the stretches of a phase, in units of so many seconds at each row.
 std::vector<double> steps_of(const std::vector<SpacedRows>& stretches, double phase,
-                             const RowSpacing& out) {
+                             const RowSpacing& out, const std::vector<double>& unit) {
   std::vector<double> steps;
   for (const SpacedRows& s : stretches)
     if (s.phase == phase)
-      for (std::size_t row = s.first + 1; row < s.end; ++row) steps.push_back(out.step[row]);
+      for (std::size_t row = s.first + 1; row < s.end; ++row)
+        steps.push_back(out.step[row] / unit[row]);
   return steps;
+}
+
+/// The usual step of a phase: in seconds, or in samples of the plan where steps are as much alike
+/// in those or more. NaN if no stretch of it has two rows.
+struct UsualOfPhase {
+  double step = nan_value;
+  bool in_samples = false;
+
+  /// [s] where a sample of the plan is as long as that.
+  double seconds(double sample) const { return in_samples ? step * sample : step; }
+};
+
+UsualOfPhase usual_of_phase(const std::vector<SpacedRows>& stretches, double phase,
+                            const RowSpacing& out, const std::vector<double>& samples) {
+  const auto of = [&](const std::vector<double>& unit) {
+    const std::vector<double> steps = steps_of(stretches, phase, out, unit);
+    if (steps.empty()) return std::pair{nan_value, 0.0};
+    const double usual = stats::upper_median(steps);
+    double unlike = 0.0;
+    for (const double step : steps) unlike += std::abs(std::log(step / usual));
+    return std::pair{usual, unlike};
+  };
+  const auto [seconds, unlike_in_seconds] = of(std::vector<double>(samples.size(), 1.0));
+  const auto [in_samples, unlike_in_samples] = of(samples);
+  return unlike_in_samples <= unlike_in_seconds ? UsualOfPhase{in_samples, true}
+                                                : UsualOfPhase{seconds, false};
+}
+
+/// The usual step of a stretch of a few rows: that of its phase, unless its own ones, two or more,
+/// are alike, and as the plan has them if there is one (else NaN). That rows are lost so evenly has
+/// a chance of (q (1 - q))^n for n steps where a part q of the rows is lost: 0.2 % for two and 5 %.
+double usual_of_few(const SpacedRows& s, double of_phase, double planned, const RowSpacing& out) {
+  if (s.end - s.first < 3) return of_phase;
+  const auto [least, most] =
+      std::minmax_element(out.step.begin() + static_cast<std::ptrdiff_t>(s.first) + 1,
+                          out.step.begin() + static_cast<std::ptrdiff_t>(s.end));
+  const double own = 0.5 * (*least + *most);
+  const bool as_others = std::abs(own - of_phase) < alike * of_phase;
+  const bool meant = std::isnan(planned) || std::abs(own - planned) < alike * planned;
+  return !as_others && meant && *most - *least < alike * own ? own : of_phase;
 }
 
 }  // namespace
@@ -80,27 +123,31 @@ bool RowSpacing::longer(std::size_t row) const {
   return step[row] > usual[row] + 0.5 * std::min(usual[row], usual[row - 1]);
 }
 
-RowSpacing row_spacing(const Recording& recording) {
+RowSpacing row_spacing(const Recording& recording, const std::vector<double>& planned) {
+  DRIFT_EXPECTS(planned.empty() || planned.size() == recording.rows());
   const std::size_t n = recording.rows();
   const auto& t = recording.find("time")->values;
   RowSpacing out{std::vector<double>(n, nan_value), std::vector<double>(n, nan_value)};
   for (std::size_t row = 1; row < n; ++row) out.step[row] = t[row] - t[row - 1];
   const std::vector<SpacedRows> stretches = stretches_of(recording);
+  // In those of the first row: where the plan has one for all, steps are what they are in seconds.
+  std::vector<double> samples(n, 1.0);
+  for (std::size_t row = 0; row < planned.size(); ++row)
+    samples[row] = planned[row] / planned.front();
   // A stretch of a few rows, some of which may be lost, is like the others of its phase; a phase of
   // single rows is like the whole recording.
-  std::array<double, 2> of_phase{nan_value, nan_value};
+  std::array<UsualOfPhase, 2> of_phase{usual_of_phase(stretches, 0.0, out, samples),
+                                       usual_of_phase(stretches, 1.0, out, samples)};
   for (const int phase : {0, 1})
-    if (auto steps = steps_of(stretches, phase, out); !steps.empty())
-      of_phase[phase] = stats::upper_median(std::move(steps));
-  for (const int phase : {0, 1})
-    if (std::isnan(of_phase[phase])) of_phase[phase] = of_phase[1 - phase];
+    if (std::isnan(of_phase[phase].step)) of_phase[phase] = of_phase[1 - phase];
   for (const SpacedRows& s : stretches) {
-    const double usual = of_phase[s.phase == 1.0 ? 1 : 0];
+    const double usual = of_phase[s.phase == 1.0 ? 1 : 0].seconds(samples[s.first]);
     if (s.end - s.first > few_steps)
       fill_usual(s, usual, out);
     else
       std::fill(out.usual.begin() + static_cast<std::ptrdiff_t>(s.first),
-                out.usual.begin() + static_cast<std::ptrdiff_t>(s.end), usual);
+                out.usual.begin() + static_cast<std::ptrdiff_t>(s.end),
+                usual_of_few(s, usual, planned.empty() ? nan_value : planned[s.first], out));
   }
 
   out.shortest = std::numeric_limits<double>::infinity();

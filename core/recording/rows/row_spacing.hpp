@@ -16,7 +16,9 @@ struct RowSpacing {
   std::vector<double> step;  ///< since the row before [s]; NaN for the first
   /// What is usual around the row [s]: the median of the steps of the nearest rows of the same
   /// position and phase, so that rows 1 s apart in slews and 60 s apart in dwells are both usual. A
-  /// stretch of a few rows is like the others of its phase. NaN where the recording does not tell.
+  /// stretch of eight rows or fewer is like the others of its phase, in seconds or in samples of
+  /// the plan, or by its own steps where those are alike and, if there is a plan, as planned. NaN
+  /// where the recording does not tell.
   std::vector<double> usual;
 
   /// Rows are missing in front of this one: halfway to one missing row. (At the first row of a
@@ -34,6 +36,8 @@ struct RowSpacing {
   double shortest = 0.0, longest = 0.0;  ///< of what is usual [s]
   double jitter = 0.0;  ///< rms deviation of the steps from what is usual, gaps left out [s]
 };
-RowSpacing row_spacing(const Recording& recording);
+
+/// `planned`: sample of the plan at each row [s] (planned_samples()); empty: no plan is known.
+RowSpacing row_spacing(const Recording& recording, const std::vector<double>& planned = {});
 
 }  // namespace drift

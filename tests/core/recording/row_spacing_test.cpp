@@ -74,6 +74,63 @@ TEST(RowSpacing, KnowsThemWhereEveryOtherRowIsLost) {
     EXPECT_EQ(s.gap(row), behind_gap[row]) << row;
 }
 
+/// Positions of so many rows each at these distances, without a pause between them; and its plan.
+struct Dwells {
+  Recording recording;
+  std::vector<double> planned;
+
+  explicit Dwells(std::initializer_list<std::pair<int, double>> positions) {
+    recording.channels = {{"time", unit::s, {}}, {"position", unit::one, {}}};
+    double t = 0.0, number = 0.0;
+    for (const auto& [rows, sample] : positions) {
+      number += 1.0;
+      for (int k = 0; k < rows; ++k) {
+        recording.channels[0].values.push_back(t += sample);
+        recording.channels[1].values.push_back(number);
+        recording.lines.push_back(recording.lines.size() + 1);
+        planned.push_back(sample);
+      }
+    }
+  }
+
+  std::vector<double> planned_without(std::size_t row) const {
+    std::vector<double> others = planned;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(row));
+    return others;
+  }
+};
+
+TEST(RowSpacing, AFewRowsOfAPositionAreUsualInItsOwnSampleOfThePlan) {
+  // Two rows, and one, show less of their distance than the plan says.
+  const Dwells d{{2, 300.0}, {20, 60.0}, {4, 300.0}, {1, 120.0}};
+  const RowSpacing s = row_spacing(d.recording, d.planned);
+  for (std::size_t row = 0; row < d.planned.size(); ++row) {
+    EXPECT_DOUBLE_EQ(s.usual[row], d.planned[row]) << row;
+    EXPECT_FALSE(s.gap(row)) << row;
+  }
+  const RowSpacing lost = row_spacing(without(d.recording, 24), d.planned_without(24));
+  for (std::size_t row = 1; row < lost.step.size(); ++row)
+    EXPECT_EQ(lost.gap(row), row == 24) << row;
+}
+
+TEST(RowSpacing, SecondsStaySecondsWhateverSampleThePlanHas) {
+  const Dwells d{{3, 1.0}, {5, 1.0}, {4, 1.0}};
+  std::vector<double> planned;
+  for (const double position : d.recording.channels[1].values)
+    planned.push_back(position == 2.0 ? 60.0 : 300.0);
+  const RowSpacing s = row_spacing(d.recording, planned);
+  for (const double usual : s.usual) EXPECT_DOUBLE_EQ(usual, 1.0);
+}
+
+TEST(RowSpacing, WithoutAPlanAFewRowsThatAreAlikeAreUsual) {
+  const Dwells d{{4, 300.0}, {20, 60.0}, {6, 100.0}};
+  const RowSpacing s = row_spacing(d.recording);
+  for (std::size_t row = 0; row < d.planned.size(); ++row) {
+    EXPECT_DOUBLE_EQ(s.usual[row], d.planned[row]) << row;
+    EXPECT_FALSE(s.gap(row)) << row;
+  }
+}
+
 TEST(RowSpacing, EvenRowsAreRegularWhateverPassesBetweenPositions) {
   Recording r = mixed(3, 0);
   EXPECT_TRUE(row_spacing(r).regular);
