@@ -64,16 +64,18 @@ std::optional<double> usual_force(const Recording& r) {
 void show_positions(const Recording& r) {
   const Channel *position = r.find("position"), *time = r.find("time");
   const RowSpacing spacing = row_spacing(r);
-  show("\n{:<10}{:>8}{:>14}{:>14}{:>13}\n", "position", "rows", "first [s]", "last [s]",
-       "length [s]");
+  show("\n{:<10}{:>8}{:>14}{:>14}{:>13}{:>13}\n", "position", "rows", "first [s]", "last [s]",
+       "length [s]", "sample [s]");
   for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
     while (end < r.rows() && position->values[end] == position->values[first]) ++end;
     // A row stands at the end of its interval: the first one began before its time.
     const double before = spacing.usual[first];
     const double length =
         time->values[end - 1] - time->values[first] + (std::isfinite(before) ? before : 0.0);
-    show("{:<10}{:>8}{:>14.10g}{:>14.10g}{:>13.6g}\n", position->values[first], end - first,
-         time->values[first], time->values[end - 1], length);
+    const double sample = spacing.usual[end - 1];  // a position ends with its dwell
+    show("{:<10}{:>8}{:>14.10g}{:>14.10g}{:>13.6g}{:>13}\n", position->values[first], end - first,
+         time->values[first], time->values[end - 1], length,
+         std::isfinite(sample) ? fmt::format("{:.6g}", sample) : "-");
   }
 }
 

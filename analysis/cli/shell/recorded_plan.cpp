@@ -7,11 +7,13 @@
 #include <cmath>
 
 #include "analysis/cli/shell/two_ups.hpp"
+#include "analysis/preparation/input_thresholds.hpp"
 #include "core/physics/earth.hpp"
 #include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/recording/recording_channels.hpp"
-#include "core/recording/rows/quality_card.hpp"
+#include "core/recording/rows/row_spacing.hpp"
+#include "core/stats/median.hpp"
 
 namespace drift::cli {
 namespace {
@@ -59,6 +61,43 @@ double as_written(double sample) {
                     : std::round(sample / unit) * unit;
 }
 
+/// Rows of one position, and the first of them that is of the dwell.
+struct PositionRows {
+  std::size_t first = 0, end = 0, dwell = 0;
+};
+
+std::vector<PositionRows> rows_by_position(const Recording& r) {
+  const Channel *position = r.find("position"), *phase = r.find("phase");
+  std::vector<PositionRows> all;
+  for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
+    end = first + 1;
+    while (end < r.rows() && (!position || position->values[end] == position->values[first])) ++end;
+    std::size_t dwell = first;
+    while (phase && dwell + 1 < end && phase->values[dwell] == 1.0) ++dwell;
+    all.push_back({first, end, dwell});
+  }
+  return all;
+}
+
+/// The usual step of a dwell's rows [s].
+double sample_of(const PositionRows& p, const RowSpacing& spacing) {
+  return stats::upper_median({spacing.usual.begin() + static_cast<std::ptrdiff_t>(p.dwell),
+                              spacing.usual.begin() + static_cast<std::ptrdiff_t>(p.end)});
+}
+
+/// What is usual of the rows of all dwells [s].
+double sample_of_most(const std::vector<PositionRows>& positions, const RowSpacing& spacing) {
+  std::vector<double> usual;
+  for (const PositionRows& p : positions)
+    usual.insert(usual.end(), spacing.usual.begin() + static_cast<std::ptrdiff_t>(p.dwell),
+                 spacing.usual.begin() + static_cast<std::ptrdiff_t>(p.end));
+  return stats::upper_median(std::move(usual));
+}
+
+double in_whole_samples(double length, double sample) {
+  return std::round(length / sample) * sample;
+}
+
 /// The row of a dwell's first ones that shows its attitude: the second, where the first is of the
 /// turn or of the position before (a jump between them, none behind).
 std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t end) {
@@ -79,21 +118,22 @@ std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t e
 
 RecordedPlan recorded_plan(const Recording& r) {
   RecordedPlan plan;
-  plan.sample = as_written(quality_card(r, RecordingKind::platform).interval);
   plan.north = true;
-  const Channel *position = r.find("position"), *time = r.find("time"), *phase = r.find("phase"),
-                *heading = r.find("case_heading");
+  const Channel *time = r.find("time"), *heading = r.find("case_heading");
+  const std::vector<PositionRows> rows = rows_by_position(r);
+  const RowSpacing spacing = row_spacing(r);
+  plan.sample = as_written(sample_of_most(rows, spacing));
   plan.headings = heading != nullptr;
   std::vector<TwoUps> seen;
   std::vector<std::string> ups;
-  for (std::size_t first = 0, end = 0; first < r.rows(); first = end) {
-    end = first + 1;
-    while (end < r.rows() && (!position || position->values[end] == position->values[first])) ++end;
-    std::size_t dwell = first;
-    while (phase && dwell + 1 < end && phase->values[dwell] == 1.0) ++dwell;
+  for (const auto& [first, end, dwell] : rows) {
     const std::size_t shows = row_of_attitude(r, dwell, end);
-    const double span = time->values[end - 1] - time->values[dwell] + plan.sample;
-    RecordedPlan::Position p{std::round(span / plan.sample) * plan.sample, "", dwell > first, {}};
+    RecordedPlan::Position p{.torqued = dwell > first};
+    if (const double own = as_written(sample_of({first, end, dwell}, spacing));
+        std::abs(own - plan.sample) > preparation::RecordingLimits::interval_room * plan.sample)
+      p.sample = own;
+    const double sample = p.sample.value_or(plan.sample);
+    p.length = in_whole_samples(time->values[end - 1] - time->values[dwell] + sample, sample);
     if (heading) p.heading = heading->values[end - 1];
     const auto shown = cardinal_axes(r, shows, p.heading.value_or(0.0));
     if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
@@ -124,6 +164,10 @@ RecordedPlan recorded_plan(const Recording& r) {
     p.turned.clear();
   }
   return plan;
+}
+
+double RecordedPlan::common_dwell() const {
+  return std::max(sample, in_whole_samples(positions.front().length, sample));
 }
 
 RecordedPlan plan_to_come(std::size_t positions) {

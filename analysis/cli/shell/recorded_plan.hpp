@@ -11,13 +11,14 @@ namespace drift::cli {
 /// What a recording says of the plan it was made on.
 struct RecordedPlan {
   struct Position {
-    double length = 0.0;              ///< of the dwell [s], a whole number of samples
+    double length = 0.0;              ///< of the dwell [s], a whole number of its samples
     std::string axes{};               ///< "x=N y=W z=U"
     bool torqued = false;             ///< slewed to, as the phases say
     std::optional<double> heading{};  ///< of the case [rad], where it is recorded
     std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
+    std::optional<double> sample{};   ///< of its own [s], where it is not that of the plan
   };
-  double sample = 0.0;          ///< [s]
+  double sample = 0.0;          ///< of most rows of the dwells [s]
   bool level = false;           ///< Earth rate is commanded in the dwells
   bool north = false;           ///< the axes that lie level are from gimbal angles
   bool headings = false;        ///< and the headings of the case are recorded; else it faces North
@@ -26,6 +27,9 @@ struct RecordedPlan {
   std::string gimbal_noise{};   ///< the same of the gimbals
   std::string contradiction{};  ///< of accelerometers and gimbals, in words; empty: none
   std::vector<Position> positions{};
+
+  /// [s] That of the first position, in whole samples of the plan: for all of them alike.
+  double common_dwell() const;
 };
 
 /// Dwells, samples and attitudes (the nearest cardinal ones) of a platform's recording: from the

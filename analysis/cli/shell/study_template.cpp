@@ -27,7 +27,8 @@ std::string_view title_of(StudyKind kind) {
   return "what a nominal model leaves out, from recordings of a platform";
 }
 
-/// Whether each position keeps the dwell it was recorded with, or all have that of [plan].
+/// Whether each position keeps the dwell and sample it was recorded with, or all have those of
+/// [plan].
 enum class Dwells { as_recorded, alike };
 
 std::string position_text(const RecordedPlan::Position& p, std::size_t number, Dwells dwells) {
@@ -39,7 +40,9 @@ std::string position_text(const RecordedPlan::Position& p, std::size_t number, D
   if (!p.turned.empty())
     text += fmt::format("# or, of a case at 45 deg: axes = \"{}\" and case_heading = \"45 deg\"\n",
                         p.turned);
-  if (dwells == Dwells::as_recorded) text += fmt::format("dwell = \"{:.12g} s\"\n", p.length);
+  if (dwells == Dwells::alike) return text;
+  text += fmt::format("dwell = \"{:.12g} s\"\n", p.length);
+  if (p.sample) text += fmt::format("sample = \"{:.9g} s\"\n", *p.sample);
   return text;
 }
 
@@ -56,7 +59,7 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
   text += fmt::format("sample = \"{:.9g} s\"{}\n", plan->sample,
                       plan->to_come ? "" : "      # of the recording");
   if (dwells == Dwells::alike)
-    text += fmt::format("dwell  = \"{:.12g} s\"\n", plan->positions.front().length);
+    text += fmt::format("dwell  = \"{:.12g} s\"\n", plan->common_dwell());
   text += plan->to_come
               ? "# As many positions as the recording names; it is to say what they are.\n"
           : plan->north
@@ -74,7 +77,7 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
 
 /// Multiples of a dwell are whole numbers of samples as it is.
 std::string sweep_text(const std::optional<RecordedPlan>& plan) {
-  const double dwell = plan ? plan->positions.front().length : 1200.0;  // [s]
+  const double dwell = plan ? plan->common_dwell() : 1200.0;  // [s]
   return fmt::format(
       "\n# Every combination of these values is a study point.\n[sweep]\n\"plan.dwell\" = "
       "[\"{:.12g} s\", \"{:.12g} s\", \"{:.12g} s\"]\n",

@@ -54,6 +54,36 @@ TEST(NewStudy, ASampleThatDoesNotDivideAnHourIsNoMistake) {
   EXPECT_EQ(driftscope("identify " + file + " " + own + " --quiet").code, 0);
 }
 
+TEST(NewStudy, EveryPositionHasTheSampleAndTheDwellItWasRecordedWith) {
+  const ScratchFolder folder;
+  const std::string positions =
+      "[[plan.position]]\naxes = \"x=N y=W z=U\"\ndwell = \"20 min\"\nsample = \"300 s\"\n"
+      "[[plan.position]]\naxes = \"x=U y=N z=W\"\ndwell = \"30 min\"\n"
+      "[[plan.position]]\naxes = \"x=W y=U z=N\"\ndwell = \"10 min\"\nsample = \"100 s\"\n";
+  const std::string made =
+      folder.write("made.toml", replaced(replaced(replaced(short_study, "preset = \"six\"\n", ""),
+                                                  "dwell  = \"10 min\"\n", ""),
+                                         "[readout]", positions + "[readout]"));
+  const std::string own = folder.file("own.csv"), file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  ASSERT_EQ(driftscope("new platform " + own + " -o " + file).code, 0);
+  const std::string study = text_of(file);
+  for (const char* part :
+       {"sample = \"60 s\"      # of the recording", "dwell = \"1200 s\"\nsample = \"300 s\"\n",
+        "dwell = \"1800 s\"\n[[plan.position]]", "dwell = \"600 s\"\nsample = \"100 s\"\n"})
+    EXPECT_TRUE(has(study, part)) << part << study;
+  EXPECT_EQ(driftscope("check " + file).code, 0);
+  const std::string looked = driftscope("look " + own).out;
+  EXPECT_TRUE(has(looked, "gaps none; between positions none")) << looked;
+  EXPECT_TRUE(has(looked, "1200         1200          300\n")) << looked;
+  EXPECT_TRUE(has(looked, "3600          600          100\n")) << looked;
+  // In a sweep all dwells are alike, in samples that are.
+  const std::string sweep = folder.file("sweep.toml");
+  ASSERT_EQ(driftscope("new sweep " + own + " -o " + sweep).code, 0);
+  EXPECT_FALSE(has(text_of(sweep), "300 s")) << text_of(sweep);
+  EXPECT_EQ(driftscope("check " + sweep).code, 0);
+}
+
 TEST(NewStudy, TakesTheNoiseThatTheRestsShow) {
   const ScratchFolder folder;
   const std::string made = folder.write("made.toml", replaced(short_study, "10 min", "60 min")),
