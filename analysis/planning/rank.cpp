@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/observability/learning_at_truth.hpp"
 #include "analysis/preparation/assumed_field.hpp"
 #include "core/base/check.hpp"
 #include "core/physics/stochastic.hpp"
@@ -101,11 +102,10 @@ std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study, const TestPlan& 
   for (std::uint64_t k = 0; k < draws; ++k) {
     observability::RankedModel drawn = model;
     drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
-    const observability::Ranking r =
-        observability::rank_parameters(observability::linearise(plan, drawn));
+    const std::vector<double> ratios = observability::learning_at_truth(plan, drawn);
     for (std::size_t i = 0; i < ranges.size(); ++i) {
-      ranges[i].low = std::min(ranges[i].low, r.learning_ratio(i));
-      ranges[i].high = std::max(ranges[i].high, r.learning_ratio(i));
+      ranges[i].low = std::min(ranges[i].low, ratios[i]);
+      ranges[i].high = std::max(ranges[i].high, ratios[i]);
     }
   }
   return ranges;

@@ -4,37 +4,17 @@
 
 #include "core/sim/simulate.hpp"
 #include "mc/task/campaign.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/few_slews.hpp"
 
 namespace drift::closure_posterior_test {
 namespace {
 
 using namespace drift::test;
 
-const Prior of_lambda = normal(0.5, 0.29);
-
-/// Two slews after one caging: lambda and the misalignments are seen as their product and little
-/// else.
-Timeline few_slews() {
-  TestPlan plan = preset_plan("six", {.dwell = 2400.0, .sample = 240.0}).value();
-  plan.positions.resize(3);
-  for (std::size_t p = 1; p < 3; ++p) plan.positions[p].entry = Entry::torqued;
-  return lay_out(plan, Site{-45.0 * detail::deg});
-}
-
-template <class Spec>
-Spec with_lambda(Spec spec) {
-  spec.active = params_named("fixed_drift") | params_named("g_drift") |
-                params_named("gyro_misalignment") | params_named("torquer_scale");
-  spec.active.set(closure_param);
-  spec.priors[closure_param] = of_lambda;
-  return spec;
-}
-
 struct Scene {
   TruthSpec truth = with_lambda(base_truth(Coupling::lambda));
   FilterSpec filter = with_lambda(base_filter(Coupling::lambda));
-  Timeline timeline = few_slews();
+  Timeline timeline = lay_out(few_slews(), in_the_south);
   Readout readout{.accelerometer_noise = 3e-5, .gimbal_noise = 8.0 * arcsec};
 
   Simulation simulated(std::uint64_t run) const {
