@@ -121,7 +121,7 @@ RecordedSite site_of(const LookedAt& seen, const std::string& path) {
                         std::optional<std::string>& value, std::string& place) {
     if (!above) return;
     value = above->value;
-    place = fmt::format("{}:{}", in_quotes(path), above->line);
+    place = fmt::format("{}:{}", path, above->line);
   };
   take(seen.above.latitude, site.latitude, site.latitude_place);
   take(seen.above.gravity, site.gravity, site.gravity_place);

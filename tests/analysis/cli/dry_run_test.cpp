@@ -111,7 +111,7 @@ TEST(DryRun, DamageIsNotCountedAsStored) {
   std::ofstream(out + "/study.toml") << "title = 3\n";
   const Answer damaged = dry(line, out);
   EXPECT_EQ(damaged.code, 0) << damaged.err;
-  expect_says(damaged.err, "worker-0000.sqlite: damaged, cannot be read");
+  expect_says(damaged.err, "worker-0000.sqlite: damaged; what cannot be read of it is left out");
   expect_says(damaged.err, "study.toml is not that of the study: it would be written anew");
   expect_says(damaged.out, "to execute       200 runs, 4 blocks of runs\n");
 }

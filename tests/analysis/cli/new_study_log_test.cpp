@@ -159,9 +159,9 @@ TEST(NewStudy, TakesLatitudeAndGravityFromAboveTheHeaderAndPositionsFromTheirNum
   ASSERT_EQ(a.code, 0) << a.err;
   const std::string study = text_of(file);
   EXPECT_TRUE(has(study, "latitude = \"45.75 deg\"")) << study;
-  EXPECT_TRUE(has(study, "own.csv':2)")) << study;
+  EXPECT_TRUE(has(study, "own.csv:2)")) << study;
   EXPECT_TRUE(has(study, "gravity  = \"9.8065 m/s^2\"")) << study;
-  EXPECT_TRUE(has(study, "own.csv':3)")) << study;
+  EXPECT_TRUE(has(study, "own.csv:3)")) << study;
   EXPECT_TRUE(has(study, "position = \"Versuch\"")) << study;
   EXPECT_TRUE(has(study, "as it scatters in the rests")) << study;  // too short for a card
   EXPECT_TRUE(has(study, "positions = { \"60\" = 1, \"50\" = 2")) << study;

@@ -204,8 +204,8 @@ TEST(SeveralRecordings, AreNamedWhereverATimeStands) {
   };
   EXPECT_TRUE(end_of("platform rate y,900,").ends_with(",deg/h,a.csv"))
       << "a sample belongs where its interval ends";
-  EXPECT_TRUE(end_of("platform rate y,960,").ends_with(",deg/h,b 2.csv"));
-  EXPECT_NE(csv.find("# b 2.csv = its own time is time [s] less 800\n"), std::string::npos);
+  EXPECT_TRUE(end_of("platform rate y,960,").ends_with(",deg/h,\"b,2.csv\""));
+  EXPECT_NE(csv.find("# b,2.csv = its own time is time [s] less 800\n"), std::string::npos);
 }
 
 TEST(DiagnosisFolder, ThePatchOfAnAmbiguousVerdictSaysWhichAlternativeItHolds) {

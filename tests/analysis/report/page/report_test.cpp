@@ -170,7 +170,7 @@ TEST(OneReport, NamedTablesAreFilesWithTheFilterAsAColumn) {
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_EQ(alone[0], (TextFile{"counts.csv", "what,n\nseen,3\n"}));
   ASSERT_EQ(several.size(), 1u);
-  EXPECT_EQ(several[0].second, "filter,what,n\nlegacy  old,seen,3\ncorrected,seen,3\n");
+  EXPECT_EQ(several[0].second, "filter,what,n\n\"legacy, old\",seen,3\ncorrected,seen,3\n");
   table.id.clear();
   EXPECT_TRUE(csv_files({{"", {table}}}).empty());
 }
