@@ -8,6 +8,7 @@
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/preparation/clock_unit.hpp"
+#include "analysis/preparation/held_rows.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
@@ -123,9 +124,10 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     show_positions(r);
     if (const std::string wrong = preparation::other_unit_of_time(r); !wrong.empty())
       show("\n{}\n", report::wrapped(wrong, 98));
-    const auto rests = preparation::resting_rows(r);
-    card = preparation::noise_card(r, kind, rests);
-    show_scatter(r, rests);
+    const Recording measured = preparation::without_held_rows(r);
+    const auto rests = preparation::resting_rows(measured);
+    card = preparation::noise_card(measured, kind, rests);
+    show_scatter(measured, rests);
   }
   show("\n{}", report::text_of({report::noise_section(card, gravity)}));
   return card;

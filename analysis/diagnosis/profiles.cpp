@@ -24,9 +24,10 @@ struct Hold {
   double value = 0.0;  ///< SI
 };
 
-/// The prior that a profile counts.
-Prior counted_prior(const search::Search& found, const search::CauseParameter& p) {
-  return p.profiled ? fixed(0.0) : found.nominal.filter.believed(p.param);
+/// The prior that a profile counts: that with which the value was found, which is wider than the
+/// library's where a size is far beyond it.
+Prior counted_prior(const search::Refit& model, const search::CauseParameter& p) {
+  return p.profiled ? fixed(0.0) : model.filter.believed(p.param);
 }
 
 std::vector<double> held_values(const search::CauseParameter& p) {
@@ -43,8 +44,9 @@ std::vector<double> held_values(const search::CauseParameter& p) {
   return values;
 }
 
-/// Farther out where an end of the interval was not found, and half way to a neighbour of the top
-/// that lies beyond the interval already. A setting, such as a time constant, keeps its sign.
+/// Farther out where an end of the interval was not found, half way to a neighbour of the top
+/// that lies beyond the interval already, and at an end that was interpolated over a long way. A
+/// setting, such as a time constant, keeps its sign.
 std::vector<double> next_values(const Profile& p, double outward) {
   const ParamSpec& spec = TermLibrary::specs[p.param];
   std::vector<double> values;
@@ -57,6 +59,15 @@ std::vector<double> next_values(const Profile& p, double outward) {
   };
   if (least != p.points.begin()) halve(*(least - 1));
   if (least + 1 != p.points.end()) halve(*(least + 1));
+  // Points of a parabola at 1.5 and 3 sigma are 1.5 apart in the root of the loss.
+  constexpr double long_way = 2.0;
+  for (const double end : {p.low_95, p.high_95}) {
+    const auto behind = std::ranges::upper_bound(p.points, end, {}, &Profile::Point::value);
+    if (!std::isfinite(end) || behind == p.points.begin() || behind == p.points.end()) continue;
+    const double root = std::sqrt((behind - 1)->loss), next = std::sqrt(behind->loss);
+    const bool apart = end > (behind - 1)->value && end < behind->value;
+    if (apart && std::abs(next - root) > long_way) values.push_back(end);
+  }
   if (spec.kind == ParamKind::nonlinear)
     std::erase_if(values, [&](double v) { return v * p.value <= 0.0; });
   for (double& v : values) v *= spec.unit.to_si;
@@ -141,13 +152,14 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
       if (!model.after.fit.estimate.find(p.param)) continue;
       for (const double value : held_values(p)) holds.push_back({all.size(), value});
       all.push_back({{.label = search::keyed(cause.term, cause.axis),
+                      .set = cause.set,
                       .key = p.key,
                       .unit = p.unit,
                       .param = p.param,
                       .value = p.value,
                       .sigma = p.sigma},
                      &model,
-                     counted_prior(found, p)});
+                     counted_prior(model, p)});
     }
   take(all, holds, test);
   constexpr double most_sigmas = 100.0;
@@ -168,7 +180,8 @@ void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile
   for (search::Cause& cause : causes)
     for (search::CauseParameter& p : cause.parameters)
       for (const Profile& profile : profiles) {
-        if (profile.param != p.param || profile.label != search::keyed(cause.term, cause.axis))
+        if (profile.param != p.param || profile.set != cause.set ||
+            profile.label != search::keyed(cause.term, cause.axis))
           continue;
         p.low_95 = profile.low_95;
         p.high_95 = profile.high_95;

@@ -77,7 +77,10 @@ CountedStart counted_start(const FilterSpec& filter, const std::vector<const Fil
   };
   for (std::size_t k = best; k-- > 0;)
     if (costs[k] < *least + one_sigma && agree_with(k, best)) counted.start = k;
-  for (std::size_t k = 0; k < runs.size(); ++k) counted.agreeing += agree_with(k, counted.start);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    counted.agreeing += agree_with(k, counted.start);
+    if (costs[k] < *least + one_sigma) counted.as_good.push_back(k);
+  }
   return counted;
 }
 

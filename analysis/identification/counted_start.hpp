@@ -10,7 +10,8 @@ namespace drift::identification {
 /// Which start of a filter is believed, by its place among the runs, and how many agree with it.
 struct CountedStart {
   std::size_t start = 0;
-  std::size_t agreeing = 0;  ///< starts, itself with them; 0 where none converged
+  std::size_t agreeing = 0;          ///< starts, itself with them; 0 where none converged
+  std::vector<std::size_t> as_good;  ///< that cost less than 1 more than the least, by place
 };
 
 /// Whether the starts of a filter were given the same measurements.

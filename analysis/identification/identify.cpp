@@ -53,15 +53,23 @@ std::vector<FilterSummary> summarise(const mc::Study& study, const Identificatio
     s.counted_start = counted.start;
     s.agreeing_starts = counted.agreeing;
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
-      std::vector<double> ekf, ekf_sigma, batch, batch_sigma;
+      std::vector<double> ekf, ekf_sigma, batch, batch_sigma, as_good, as_good_sigma;
       for (const FilterRun* r : runs) {
         ekf.push_back(r->ekf.parameters[k].value);
         ekf_sigma.push_back(r->ekf.parameters[k].sigma);
         batch.push_back(r->batch.estimate.parameters[k].value);
         batch_sigma.push_back(r->batch.estimate.parameters[k].sigma);
       }
-      s.spread.push_back({s.layout.params[k], start_consistency(ekf, ekf_sigma),
-                          start_consistency(batch, batch_sigma)});
+      for (const std::size_t start : counted.as_good) {
+        as_good.push_back(batch[start]);
+        as_good_sigma.push_back(batch_sigma[start]);
+      }
+      StartSpread spread{s.layout.params[k], start_consistency(ekf, ekf_sigma),
+                         start_consistency(batch, batch_sigma)};
+      spread.counted = drift_varies(study.filters[f]) ? spread.ekf
+                       : as_good.size() > 1           ? start_consistency(as_good, as_good_sigma)
+                                                      : std::nan("");
+      s.spread.push_back(spread);
     }
     s.unseen = weak_directions(id.counted(s).batch.information_root, 1.0);
     s.weak = s.unseen.size();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct FilterRun {
 struct StartSpread {
   std::size_t param = 0;
   double ekf = 0.0, batch = 0.0;  ///< start-consistency ratios
+  /// Of the estimator that counts (judged()); of a batch fit, of the starts that fit as well.
+  double counted = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// All starts of one filter.

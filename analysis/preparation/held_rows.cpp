@@ -99,4 +99,10 @@ void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
   }
 }
 
+Recording without_held_rows(Recording recording) {
+  std::vector<std::string> remarks;
+  leave_out_held_rows(recording, remarks);
+  return recording;
+}
+
 }  // namespace drift::preparation

@@ -14,6 +14,9 @@ namespace drift::preparation {
 /// taken out. Such samples become NaN, with a remark.
 void leave_out_held_rows(Recording& recording, std::vector<std::string>& remarks);
 
+/// The recording without them: what its sensors measured.
+Recording without_held_rows(Recording recording);
+
 /// Takes out where a sensor stands at one value for far longer than it usually does
 /// (RecordingLimits::stuck): stuck, or at the end of its range. Such samples become NaN, with a
 /// remark. A sensor that reads in coarse steps repeats itself as it likes (reading_step()).

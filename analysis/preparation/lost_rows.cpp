@@ -41,7 +41,8 @@ class Gaps {
   }
 
   /// When a row begins that is not carried on from the one before: one usual step earlier, or with
-  /// the dwell of the plan where the first rows of the position are missing and the last are not.
+  /// the dwell of the plan where the first rows of the position are missing and the last are not,
+  /// or both are and the dwell is what lies between its neighbours.
   double begin_of_caged(std::size_t row) const {
     const Position* p = planned(row);
     double usual = spacing_.usual[row];
@@ -56,8 +57,14 @@ class Gaps {
       const double by_plan = time_[last] - p->dwell, earlier = (begin - by_plan) / usual;
       if (std::abs(by_plan - ended_before(row)) < RecordingLimits::grid_room * usual)
         return std::max(by_plan, before);  // however long the first row is
-      if (last + 1 < time_.size() ? spacing_.gap(last + 1) : row == 0)
-        return std::max(begin, before);  // its end is missing, or may be
+      if (last + 1 < time_.size() ? spacing_.gap(last + 1) : row == 0) {
+        // Its end is missing, or may be: what is between the position before and the one behind is
+        // the dwell, or nobody knows.
+        const bool fills = row > 0 && last + 1 < time_.size() && caged(last + 1) &&
+                           std::abs(ended_before(row) + p->dwell - begin_of_caged(last + 1)) <
+                               RecordingLimits::grid_room * usual;
+        return std::max(fills ? ended_before(row) : begin, before);
+      }
       const bool whole = std::abs(earlier - std::round(earlier)) < RecordingLimits::grid_room;
       const bool few = earlier > 0.5 && earlier < RecordingLimits::first_rows + 0.5;
       if (whole && few && by_plan > before - RecordingLimits::grid_room * usual)

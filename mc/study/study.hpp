@@ -44,10 +44,14 @@ struct Resolved {
                        ///< "default prior"
 };
 
+/// `--set key=value` of the command line.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
 /// A study file, read, checked and converted to internal units.
 struct Study {
   std::string path;
-  std::string text;  ///< the file as TOML with the overrides of the command line in it
+  Overrides overrides;  ///< with which it was read
+  std::string text;     ///< the file as TOML with the overrides of the command line in it
   std::string title;
   Site site;
   RecordingKind kind = RecordingKind::platform;
@@ -67,9 +71,6 @@ struct Study {
   bool has_blind = false;  ///< [blind] is in the file
   std::vector<Resolved> resolved;
 };
-
-/// `--set key=value` of the command line.
-using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
 /// is wrong, what was expected, and the nearest valid key where one was meant.

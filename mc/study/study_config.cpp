@@ -221,6 +221,7 @@ Study read_study(const std::string& path, const Overrides& overrides) {
 Study read_study_text(std::string_view text, const std::string& path, const Overrides& overrides) {
   const Node root = tree_of(text, path, overrides);
   Study study = read_study_tree(root, path);
+  study.overrides = overrides;
   try_sweep(root, study);
   study.text = config::to_document(root);
   return study;

@@ -6,6 +6,7 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/shell/study_template.hpp"
 #include "analysis/preparation/clock_unit.hpp"
+#include "analysis/preparation/held_rows.hpp"
 #include "analysis/preparation/noise_card.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
@@ -220,13 +221,14 @@ ExitCode make_study(const NewArguments& a) {
       if (std::string wrong = preparation::other_unit_of_time(*seen.recording); !wrong.empty())
         throw InputError(ExitCode::recording, std::move(wrong));
       plan = recorded_plan(*seen.recording);
-      const auto rests = preparation::resting_rows(*seen.recording);
-      plan->noise = noise_line(*seen.recording, rests);
+      const Recording measured = preparation::without_held_rows(*seen.recording);
+      const auto rests = preparation::resting_rows(measured);
+      plan->noise = noise_line(measured, rests);
       if (plan->noise.empty())
-        plan->noise = scatter_line(*seen.recording, rests, "accelerometer_noise",
-                                   accelerometer_channels, unit::ug);
+        plan->noise =
+            scatter_line(measured, rests, "accelerometer_noise", accelerometer_channels, unit::ug);
       plan->gimbal_noise =
-          scatter_line(*seen.recording, rests, "gimbal_noise", gimbal_channels, unit::arcsec);
+          scatter_line(measured, rests, "gimbal_noise", gimbal_channels, unit::arcsec);
     }
     if (!on_case && !seen.recording && seen.named > 0) plan = plan_to_come(seen.named);
   }

@@ -11,6 +11,7 @@ namespace drift::diagnosis {
 /// others are fitted anew through the full dynamics.
 struct Profile {
   std::string label;                ///< of the cause, "magnetic_drift.y"
+  int set = 0;                      ///< of the cause: alternatives have different ones
   std::string key, unit;            ///< of the parameter; values below are in `unit`
   std::size_t param = 0;            ///< index in TermLibrary
   double value = 0.0, sigma = 0.0;  ///< as the diagnosis says them

@@ -37,14 +37,17 @@ double in_prior_sigmas(const search::CauseParameter& p) {
 
 /// "0.056±0.011", or where refits found the interval to be another "0.056 (95 %: 0.037 to 0.22)".
 std::string value_of(const search::CauseParameter& p) {
-  constexpr int digits = 2;
   // Of lambda, which is between two equations, the interval is told in any case.
   if (p.param == closure_param || p.sigma_says_it()) return with_sigma(p.value, p.sigma);
   const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
-  return fmt::format("{} (95 %: {}{}{}{})", number_text(p.value, digits),
-                     low ? (high ? "" : "at least ") : "at most ",
-                     low ? number_text(p.low_95, digits) : "", low && high ? " to " : "",
-                     high ? number_text(p.high_95, digits) : "");
+  // As many decimals as the nearer end asks for, but not where that is the value itself.
+  double nearer = std::min(low ? std::abs(p.value - p.low_95) : HUGE_VAL,
+                           high ? std::abs(p.high_95 - p.value) : HUGE_VAL);
+  if (low && high) nearer = std::max(nearer, 0.1 * (p.high_95 - p.low_95));
+  const auto number = [&](double x) { return to_match(x, nearer / stats::half_width_95); };
+  return fmt::format("{} (95 %: {}{}{}{})", number(p.value),
+                     low ? (high ? "" : "at least ") : "at most ", low ? number(p.low_95) : "",
+                     low && high ? " to " : "", high ? number(p.high_95) : "");
 }
 
 std::string number_of(const search::CauseParameter& p) {

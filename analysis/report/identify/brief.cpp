@@ -11,6 +11,7 @@
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/identify/turned_words.hpp"
+#include "analysis/report/page/study_words.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -269,7 +270,6 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   }
   const bool wrong_study = other_headings(id) != nullptr || other_latitude(id).has_value();
   brief.tone = j.good.empty() || wrong_study ? Tone::bad : doubtful ? Tone::doubtful : Tone::good;
-  const std::string file = study.path.empty() ? "STUDY" : shell_word(study.path);
   if (!labels.empty())
     brief.next = "Next: correct the numbers of the positions in the recording and identify again.";
   else if (const auto* headings = other_headings(id))
@@ -287,13 +287,13 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   else if (!j.first_fits)
     brief.next = fmt::format(
         "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",
-        other_latitude(id) ? "correct the latitude by a map; then " : "", file,
+        other_latitude(id) ? "correct the latitude by a map; then " : "", study_words(study),
         id.simulated ? "RECORDING" : shell_words(id.sources));
   else if (j.unlearned)
     brief.next = fmt::format(
         "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "
         "not.{}",
-        file, covariates_to_rank_with(study));
+        study_words(study), covariates_to_rank_with(study));
   return brief;
 }
 

@@ -36,7 +36,7 @@ ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {
     return out;
   }
   if (v.id.truth) out.off = std::abs(p->value - v.id.truth->theta[out.param]) / p->sigma;
-  const double ratio = v.summary.spread[state].ekf;
+  const double ratio = v.summary.spread[state].counted;
   if (out.off > surely_wrong)
     out.worth = Worth::wrong;
   else if (!believed(v))

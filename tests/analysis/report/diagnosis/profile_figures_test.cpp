@@ -91,9 +91,11 @@ TEST(Intervals, ASizeHasItsIntervalWhereItsSigmaSaysAnother) {
   const double none = std::nan("");
   expect(none, none, "W_x = 0.056±0.011 deg/h");
   expect(0.035, 0.078, "W_x = 0.056±0.011 deg/h");
-  expect(0.037, 0.218, "W_x = 0.056 (95 %: 0.037 to 0.22) deg/h");
+  expect(0.037, 0.218, "W_x = 0.056 (95 %: 0.037 to 0.218) deg/h");
   expect(0.037, none, "W_x = 0.056 (95 %: at least 0.037) deg/h");
-  expect(none, 0.218, "W_x = 0.056 (95 %: at most 0.22) deg/h");
+  expect(none, 0.218, "W_x = 0.06 (95 %: at most 0.22) deg/h");
+  told.value = 4.26;
+  expect(4.252, 4.2701, "W_x = 4.260 (95 %: 4.252 to 4.270) deg/h");
 }
 
 TEST(Causes, ASizeSaysWhatElseOfTheEffectItTakesAsZero) {

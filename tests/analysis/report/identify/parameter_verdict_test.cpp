@@ -77,7 +77,9 @@ TEST(ParameterVerdict, IsNotToBeTrustedWhereTheFilterMisfits) {
 
 TEST(ParameterVerdict, DependsOnTheStartWhereTheStartsDisagree) {
   Fitted f;
-  f.id.summaries[0].spread[5].ekf = 20.0;
+  f.id.summaries[0].spread[5].ekf = 20.0;  // of the estimator that does not count
+  EXPECT_NE(f.verdict(5).worth, Worth::start_dependent);
+  f.id.summaries[0].spread[5].counted = 20.0;
   EXPECT_EQ(f.verdict(5).worth, Worth::start_dependent);
 }
 
