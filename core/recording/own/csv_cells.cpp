@@ -54,6 +54,10 @@ const std::vector<std::string_view>& CellSplitter::split_row(std::string_view li
   return cells_;
 }
 
+bool begins_like_number(std::string_view cell) {
+  return !cell.empty() && std::string_view("0123456789+-.,").find(cell.front()) != cell.npos;
+}
+
 std::string_view without_checksum(std::string_view line) {
   const std::string_view text = trimmed(line);
   const auto star = text.rfind('*');

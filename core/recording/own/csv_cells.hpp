@@ -41,6 +41,9 @@ struct ParsedCell {
 /// Reads a cell, whatever the locale. `decimal` automatic: point or comma.
 ParsedCell parse_cell(std::string_view text, DecimalMark decimal);
 
+/// Whether a cell may hold a number, or an instant.
+bool begins_like_number(std::string_view cell);
+
 /// The number in a cell, with point or comma; NaN for none.
 double cell_number(std::string_view cell);
 

@@ -13,10 +13,6 @@ namespace {
 
 using Role = ColumnUse::Role;
 
-bool begins_like_number(std::string_view cell) {
-  return !cell.empty() && std::string_view("0123456789+-.,").find(cell.front()) != cell.npos;
-}
-
 constexpr std::string_view header_example = "a header row such as 'time [s],acc_x [g],...'";
 
 }  // namespace
@@ -162,7 +158,9 @@ void CsvRows::read_row(std::string_view line) {
     repeated_line_ = lines_.number();
     return;
   }
-  const bool text = cells.size() < n && std::ranges::none_of(cells, begins_like_number);
+  const auto filled = std::ranges::count_if(cells, [](auto cell) { return !cell.empty(); });
+  if (filled == 0 && !format_.rate) return;  // delimiters alone: a spreadsheet's empty row
+  const bool text = filled < std::ssize(row_) && std::ranges::none_of(cells, begins_like_number);
   if (text && (footer_lines_ > 0 || pending_.empty())) {
     if (footer_lines_++ == 0) footer_line_ = lines_.number();
   } else {

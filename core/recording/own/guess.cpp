@@ -67,6 +67,7 @@ void each_row_of_text(const std::string& path, const GuessedFile& file,
     if (!valid_utf8(line)) line = decoded = utf8_from_windows_1252(line);
     const auto& cells = splitter.split_row(without_checksum(line), file.columns.size());
     if (cells.size() != file.columns.size()) continue;
+    if (std::ranges::none_of(cells, begins_like_number)) continue;  // text, or an empty row
     if (std::ranges::equal(cells, file.columns, {}, {},
                            [](const GuessedColumn& c) { return std::string_view(c.header.whole); }))
       continue;  // the header again

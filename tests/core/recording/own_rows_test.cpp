@@ -39,6 +39,19 @@ TEST(OwnRows, AHeaderThatStandsAgainAndTextAtTheEndAreNoRows) {
       << "text between rows is not passed over";
 }
 
+TEST(OwnRows, EmptyRowsAndSummariesOfASpreadsheetAreNoRows) {
+  const Folder folder;
+  const std::string head = "time [s]," + imu_header, empty = ",,,,,,\n";
+  const std::string path = folder.write(
+      "r.csv", head + "1" + still + empty + "2" + still + "3" + still + empty + "Mean,,,,,,\n");
+  const Recording r = read_recording(path, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(guess_file(path).rows, 3u);
+  EXPECT_TRUE(std::ranges::any_of(r.remarks.texts(), [](const std::string& s) {
+    return s.find("line 7, the last, is text: it is left out") != std::string::npos;
+  }));
+}
+
 TEST(OwnRows, AHeaderOfSeveralLinesHasNamesUnitsAndWords) {
   const Folder folder;
   const std::string names = "Time,Accelerometer X,Accelerometer Y,Accelerometer Z\n",
