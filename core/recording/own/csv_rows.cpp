@@ -191,7 +191,7 @@ void CsvRows::read_row(std::string_view line) {
   for (std::size_t i = 0; i < n; ++i)
     if (auto complaint = read_cell(i, cells[i])) pending_.push_back(std::move(*complaint));
   if (!pending_.empty()) {
-    if (lines_.ended()) report_pending();
+    if (lines_.ended() && !text) report_pending();
     return;
   }
   note_end(cells.back());
