@@ -62,8 +62,12 @@ void write_line(const std::string& line) {
 }
 
 /// A remark as one JSON object on one line.
+/// The level stands by itself, and need not begin the message as in words.
 std::string json_line(std::string_view text, std::string_view level) {
+  while (text.starts_with('\n')) text.remove_prefix(1);
   while (text.ends_with('\n')) text.remove_suffix(1);
+  if (text.starts_with(level) && text.substr(level.size()).starts_with(": "))
+    text.remove_prefix(level.size() + 2);
   const nlohmann::ordered_json object{{"level", level}, {"message", text}};
   return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
