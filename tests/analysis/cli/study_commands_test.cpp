@@ -228,9 +228,9 @@ std::size_t json_lines(const std::string& text, const std::string& level) {
     EXPECT_TRUE(json.is_object()) << line;
     if (json.is_object() && json.value("level", "progress") == level) ++count;
     if (json.is_object() && json.contains("level")) {
-      const std::string message = json["message"], level = json["level"];
+      const std::string message = json["message"], its_level = json["level"];
       EXPECT_FALSE(message.empty());
-      EXPECT_FALSE(message.starts_with(level + ": ") || message.starts_with('\n')) << message;
+      EXPECT_FALSE(message.starts_with(its_level + ": ") || message.starts_with('\n')) << message;
     }
   }
   return count;
