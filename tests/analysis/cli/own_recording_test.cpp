@@ -269,7 +269,8 @@ TEST(OwnRecording, LookCountsTheIntervalOfTheFirstRowAndSaysWhatItsColumnsMean) 
   const std::string study = folder.write("study.toml", study_text), made = folder.file("made.csv");
   ASSERT_EQ(driftscope("simulate '" + study + "' -o '" + made + "'").code, 0);
   const auto look = driftscope("look '" + made + "'");
-  EXPECT_NE(look.out.find("           20           240          240\n"), std::string::npos)
+  EXPECT_NE(look.out.find("           20           240          240           20\n"),
+            std::string::npos)
       << look.out;
   EXPECT_NE(look.out.find("stuck: samples in the longest run of one value"), std::string::npos);
 }

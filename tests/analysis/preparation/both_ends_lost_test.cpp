@@ -37,7 +37,8 @@ Recording without(Recording r, double position, const std::vector<std::size_t>& 
 double begin_of(const Prepared& p, double position) {
   const Recording& r = p.recordings.front();
   const auto& at = r.find("position")->values;
-  return r.begins[static_cast<std::size_t>(std::ranges::find(at, position) - at.begin())];
+  const auto row = static_cast<std::size_t>(std::ranges::find(at, position) - at.begin());
+  return r.begins.empty() ? r.find("time")->values[row] - 60.0 : r.begins[row];
 }
 
 TEST(BothEndsLost, APositionBeginsWhereTheOneBeforeEndedIfItsDwellIsWhatIsBetween) {
