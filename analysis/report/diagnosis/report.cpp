@@ -233,6 +233,12 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     brief.next = "Next: " + advice_in_brief(d.advice.front());
   else if (d.verdict == Verdict::named && d.has_patch)
     brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
+  else if (const auto other = facts(d.nominal.coupling).other;
+           other &&
+           std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
+    brief.next = fmt::format(
+        "Next: diagnose again under the other equation, and see what is missing: --set {}.",
+        shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
   else if (d.proposal)
     brief.next =
         "Next: look for what acts there and then. With the [[term]] of proposal.toml in the study, "

@@ -240,5 +240,18 @@ TEST(DiagnosisFigures, TheNumbersAtTheRightHaveAHead) {
   }
 }
 
+TEST(DiagnosisInBrief, WhereAnotherEquationMayBeAmongWhatIsMissingItsDiagnosisIsNext) {
+  const test::ScratchFolder folder;
+  const mc::Study study = test::read_text(folder, "study.toml", test::nominal_study);
+  diagnosis::Diagnosis d = test::diagnosis(study.filters.front());
+  d.verdict = diagnosis::Verdict::ambiguous;
+  d.advice.clear();
+  d.proposal.reset();
+  const auto next = [&d] { return report::diagnosis_in_brief(d).next; };
+  EXPECT_EQ(next().find("coupling="), std::string::npos) << next();
+  d.causes.front().term = "frame_closure";
+  EXPECT_NE(next().find("--set filter.nominal.coupling=eq6."), std::string::npos) << next();
+}
+
 }  // namespace
 }  // namespace drift::diagnosis_report_test
