@@ -112,6 +112,7 @@ std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& record
   const std::vector<Seen> all = seen_in(recording, positions);
   if (positions < Limits::positions) return "";
   const double expected = expected_difference(study), before = rms(all, Vec3::Zero());
+  if (before < Limits::least * expected) return "";
   std::array<double, 3> left{};
   for (int g = 0; g < 3; ++g)
     left[static_cast<std::size_t>(g)] = rms(reversed(all, g), Vec3::Zero());
@@ -121,9 +122,6 @@ std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& record
                      }) == 1;
   if (!alone || left[best] > Limits::left * expected || before < Limits::clearly * left[best])
     return "";
-  const double chance = std::exp(-0.5 * std::pow(before / expected, 2)) *
-                        std::pow(left[best] / before, Limits::sign_power);
-  if (chance > Limits::sign_by_chance) return "";
   const std::string_view name = gimbal_channels.names[best];
   const std::string right = fmt::format("{} = \"-{}\"", name, name);
   return fmt::format(

@@ -91,12 +91,7 @@ struct GimbalZeroLimits {
   /// large a zero is of no unit as its priors say (6e-7), nor is what leaves so much (3e-7).
   /// Test: GimbalZero.*
   static constexpr double least = 5.0, left = 5.0;
-  static constexpr double clearly = 2.0;  ///< times as much is left by every other gimbal
-  /// Of a gimbal of the wrong sign: the chance that biases and misalignments differ by as much, and
-  /// in the one direction that a change of sign takes away. They span five dimensions and more in
-  /// three positions: all but a part q of it with a chance of q^4. Test: GimbalSign.*
-  static constexpr double sign_by_chance = 6e-7;
-  static constexpr int sign_power = 4;
+  static constexpr double clearly = 2.0;       ///< times as much is left by every other gimbal
   static constexpr std::size_t positions = 3;  ///< fewer fit several guesses
   static constexpr double shown = 0.05;        ///< part of a zero that Up must show, squared, mean
 };
