@@ -14,17 +14,9 @@ namespace {
 using test::Answer;
 using test::expect_says;
 using test::ScratchFolder;
+using test::study_file;
 using test::synthetic;
 namespace fs = std::filesystem;
-
-/// 200 runs of one point, in blocks of 64, 64, 64 and 8.
-std::string study_file(const ScratchFolder& scratch) {
-  return scratch.write(
-      "study.toml",
-      "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = \"six\"\n[truth]\n"
-      "coupling = \"eq5\"\n[[filter]]\nname = \"eq5\"\ncoupling = \"eq5\"\n"
-      "[monte_carlo]\nruns = 200\nseed = 7\nallowed_failures = 99\n");
-}
 
 /// Every file of a folder.
 std::map<std::string, std::string> content(const std::string& folder) {

@@ -26,64 +26,56 @@ TEST(OwnReadings, AxesOfColumnsToldByTheirValuesAreThoseOfTheirNames) {
   EXPECT_EQ(channels("Sensor 3 [g];Sensor 1 [g];Sensor 2 [g]"), "time acc_x acc_y acc_z ");
 }
 
+/// What the first columns of a log, two rows of them, and three of accelerometers are taken for.
+std::string channels_of(const char* header, const std::string& first, const std::string& second) {
+  const Folder folder;
+  const GuessedFile file =
+      guess_file(folder.write("own.csv", fmt::format("{};ax [g];ay [g];az [g]\n{};0,98;0,1;0,17\n"
+                                                     "{};0,17;0,98;0,1\n",
+                                                     header, first, second)));
+  std::string text;
+  for (const GuessedColumn& c : file.columns)
+    text += (c.channel.empty() ? "-" : c.channel + c.unit) + " ";
+  return text;
+}
+const std::string acc = "acc_xg acc_yg acc_zg ";
+
 /// "Data" is a date in Italian, and neither a name of the time nor one of a position.
 TEST(OwnReadings, TheOneColumnOfTimesOfAClockIsTheTime) {
-  const Folder folder;
-  const auto channels = [&](const char* header, std::string first, std::string second) {
-    const GuessedFile file =
-        guess_file(folder.write("own.csv", fmt::format("{};ax [g];ay [g];az [g]\n{};0,98;0,1;0,17\n"
-                                                       "{};0,17;0,98;0,1\n",
-                                                       header, first, second)));
-    std::string text;
-    for (const GuessedColumn& c : file.columns)
-      text += (c.channel.empty() ? "-" : c.channel + c.unit) + " ";
-    return text;
-  };
-  const std::string acc = "acc_xg acc_yg acc_zg ";
-  EXPECT_EQ(channels("Data", "2026-03-12T08:30:30.000", "2026-03-12T08:31:00.000"), "time " + acc);
-  EXPECT_EQ(channels("Data e ora", "12/03/2026 08:30:30,5", "12/03/2026 08:31:00,5"),
+  EXPECT_EQ(channels_of("Data", "2026-03-12T08:30:30.000", "2026-03-12T08:31:00.000"),
             "time " + acc);
-  EXPECT_EQ(channels("Inizio;Fine", "08:30:30;08:31:00", "08:31:00;08:31:30"), "- - " + acc);
-  EXPECT_EQ(channels("Data", "primo", "secondo"), "position " + acc);
+  EXPECT_EQ(channels_of("Data e ora", "12/03/2026 08:30:30,5", "12/03/2026 08:31:00,5"),
+            "time " + acc);
+  EXPECT_EQ(channels_of("Inizio;Fine", "08:30:30;08:31:00", "08:31:00;08:31:30"), "- - " + acc);
+  EXPECT_EQ(channels_of("Data", "primo", "secondo"), "position " + acc);
 }
 
 TEST(OwnReadings, UnitsOfTheHeadingDecideWhatAColumnIsNot) {
   const Folder folder;
-  const auto channels = [&](const char* header, const char* first, const char* second) {
-    const GuessedFile file =
-        guess_file(folder.write("own.csv", fmt::format("{};ax [g];ay [g];az [g]\n{};0,98;0,1;0,17\n"
-                                                       "{};0,17;0,98;0,1\n",
-                                                       header, first, second)));
-    std::string text;
-    for (const GuessedColumn& c : file.columns)
-      text += (c.channel.empty() ? "-" : c.channel + c.unit) + " ";
-    return text;
-  };
-  const std::string acc = "acc_xg acc_yg acc_zg ";
   const char *first = "22:12:00;21,5", *second = "22:14:00;21,6";
-  EXPECT_EQ(channels("clock;T [\u00B0C]", first, second), "time temperature\u00B0C " + acc);
-  EXPECT_EQ(channels("clock;t (K)", "22:12:00;294,1", "22:14:00;294,2"),
+  EXPECT_EQ(channels_of("clock;T [\u00B0C]", first, second), "time temperature\u00B0C " + acc);
+  EXPECT_EQ(channels_of("clock;t (K)", "22:12:00;294,1", "22:14:00;294,2"),
             "time temperatureK " + acc);
-  EXPECT_EQ(channels("Zeit / s;T / K", "1;294,1", "2;294,2"), "times temperatureK " + acc);
-  EXPECT_EQ(channels("Zeit in min;T in \u00B0C", "1;21,1", "2;21,2"),
+  EXPECT_EQ(channels_of("Zeit / s;T / K", "1;294,1", "2;294,2"), "times temperatureK " + acc);
+  EXPECT_EQ(channels_of("Zeit in min;T in \u00B0C", "1;21,1", "2;21,2"),
             "timemin temperature\u00B0C " + acc);
-  EXPECT_EQ(channels("Zeit / s;Gyro x / deg/s", "1;3", "2;4"), "times gyro_xdeg/s " + acc);
-  EXPECT_EQ(channels("Zeit / s;an / aus", "1;3", "2;4"), "times - " + acc);
-  EXPECT_EQ(channels("clock;T_degC", first, second), "time temperaturedegC " + acc);
+  EXPECT_EQ(channels_of("Zeit / s;Gyro x / deg/s", "1;3", "2;4"), "times gyro_xdeg/s " + acc);
+  EXPECT_EQ(channels_of("Zeit / s;an / aus", "1;3", "2;4"), "times - " + acc);
+  EXPECT_EQ(channels_of("clock;T_degC", first, second), "time temperaturedegC " + acc);
   // Without a unit "T" is what a clock leaves of it.
-  EXPECT_EQ(channels("T;Uhrzeit", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
-  EXPECT_EQ(channels("T;clock", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
-  EXPECT_EQ(channels("T;n", "1;3", "2;4"), "time? - " + acc);
-  EXPECT_EQ(channels("t [s];Pos [deg]", "1;1", "2;2"), "times - " + acc);
-  EXPECT_EQ(channels("Temp [s];n", "1;3", "2;4"), "times - " + acc);
-  EXPECT_EQ(channels("t [s];gx [m/s^2]", "1;3", "2;4"), "times - " + acc);
-  EXPECT_EQ(channels("t [s];gyro_x_c", "1;3", "2;4"), "times gyro_x? " + acc) << "a word";
-  EXPECT_EQ(channels("t [s];gx_counts", "1;3", "2;4"), "times gyro_x? " + acc);
-  EXPECT_EQ(channels("t [s];T_K", "1;294,1", "2;294,2"), "times temperatureK " + acc);
-  EXPECT_EQ(channels("t [s];Temp [K]", "1;21,1", "2;21,2"), "times temperaturedegC " + acc)
+  EXPECT_EQ(channels_of("T;Uhrzeit", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
+  EXPECT_EQ(channels_of("T;clock", "21,5;22:12:00", "21,6;22:14:00"), "- time " + acc);
+  EXPECT_EQ(channels_of("T;n", "1;3", "2;4"), "time? - " + acc);
+  EXPECT_EQ(channels_of("t [s];Pos [deg]", "1;1", "2;2"), "times - " + acc);
+  EXPECT_EQ(channels_of("Temp [s];n", "1;3", "2;4"), "times - " + acc);
+  EXPECT_EQ(channels_of("t [s];gx [m/s^2]", "1;3", "2;4"), "times - " + acc);
+  EXPECT_EQ(channels_of("t [s];gyro_x_c", "1;3", "2;4"), "times gyro_x? " + acc) << "a word";
+  EXPECT_EQ(channels_of("t [s];gx_counts", "1;3", "2;4"), "times gyro_x? " + acc);
+  EXPECT_EQ(channels_of("t [s];T_K", "1;294,1", "2;294,2"), "times temperatureK " + acc);
+  EXPECT_EQ(channels_of("t [s];Temp [K]", "1;21,1", "2;21,2"), "times temperaturedegC " + acc)
       << "nothing is at 21 K";
-  EXPECT_EQ(channels("unix_ms;n", "1773532680000;1", "1773532681000;2"), "timems - " + acc);
-  EXPECT_EQ(channels("epoch;n", "1773532680;1", "1773532681;2"), "times - " + acc);
+  EXPECT_EQ(channels_of("unix_ms;n", "1773532680000;1", "1773532681000;2"), "timems - " + acc);
+  EXPECT_EQ(channels_of("epoch;n", "1773532680;1", "1773532681;2"), "times - " + acc);
   const GuessedFile words = guess_file(
       folder.write("c.csv", "t [s];acc_x_c;acc_y_c;acc_z_c\n1;0,98;0,1;0,17\n2;0,17;0,98;0,1\n"));
   EXPECT_EQ(words.columns[1].unit, "g") << "corrected, not in degrees Celsius";
