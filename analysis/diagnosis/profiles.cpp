@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/profile_interval.hpp"
 #include "analysis/equation/held_parameter.hpp"
-#include "core/stats/normal.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
@@ -30,11 +30,22 @@ Prior counted_prior(const search::Refit& model, const search::CauseParameter& p)
   return p.profiled ? fixed(0.0) : model.filter.believed(p.param);
 }
 
-std::vector<double> held_values(const search::CauseParameter& p) {
+/// The value that was found, and those at which other fits of the same causes ended, in other
+/// valleys of a setting, each with 1.5 and 3 of its sigmas to either side; SI.
+std::vector<double> held_values(const search::Search& found, const search::Refit& model,
+                                const search::CauseParameter& p) {
   const double unit = TermLibrary::specs[p.param].unit.to_si;
   std::vector<double> values;
-  for (const double sigmas : {-3.0, -1.5, 0.0, 1.5, 3.0})
-    values.push_back((p.value + sigmas * p.sigma) * unit);
+  const auto hold_about = [&](double value, double sigma) {
+    for (const double sigmas : {-3.0, -1.5, 0.0, 1.5, 3.0})
+      values.push_back(value + sigmas * sigma);
+  };
+  hold_about(p.value * unit, p.sigma * unit);
+  if (p.profiled)
+    for (const search::Refit& other : found.beside)
+      if (const ParameterEstimate* e = other.after.fit.estimate.find(p.param);
+          e && search::same_causes(model.choices, other.choices))
+        hold_about(e->value, e->sigma);
   if (p.param == closure_param) values.insert(values.end(), {0.0, 1.0});
   std::ranges::sort(values);
   const double least = 1e-6 * p.sigma * unit;
@@ -44,30 +55,10 @@ std::vector<double> held_values(const search::CauseParameter& p) {
   return values;
 }
 
-/// Farther out where an end of the interval was not found, half way to a neighbour of the top
-/// that lies beyond the interval already, and at an end that was interpolated over a long way. A
-/// setting, such as a time constant, keeps its sign.
+/// Where refits are wanted next, SI. A setting, such as a time constant, keeps its sign.
 std::vector<double> next_values(const Profile& p, double outward) {
   const ParamSpec& spec = TermLibrary::specs[p.param];
-  std::vector<double> values;
-  if (!std::isfinite(p.low_95)) values.push_back(p.points.front().value - outward);
-  if (!std::isfinite(p.high_95)) values.push_back(p.points.back().value + outward);
-  const auto least = std::ranges::min_element(p.points, {}, &Profile::Point::loss);
-  const auto halve = [&](const Profile::Point& beside) {
-    if (beside.loss - least->loss > std::pow(stats::half_width_95, 2))
-      values.push_back(0.5 * (least->value + beside.value));
-  };
-  if (least != p.points.begin()) halve(*(least - 1));
-  if (least + 1 != p.points.end()) halve(*(least + 1));
-  // Points of a parabola at 1.5 and 3 sigma are 1.5 apart in the root of the loss.
-  constexpr double long_way = 2.0;
-  for (const double end : {p.low_95, p.high_95}) {
-    const auto behind = std::ranges::upper_bound(p.points, end, {}, &Profile::Point::value);
-    if (!std::isfinite(end) || behind == p.points.begin() || behind == p.points.end()) continue;
-    const double root = std::sqrt((behind - 1)->loss), next = std::sqrt(behind->loss);
-    const bool apart = end > (behind - 1)->value && end < behind->value;
-    if (apart && std::abs(next - root) > long_way) values.push_back(end);
-  }
+  std::vector<double> values = wanted_points(p, outward);
   if (spec.kind == ParamKind::nonlinear)
     std::erase_if(values, [&](double v) { return v * p.value <= 0.0; });
   for (double& v : values) v *= spec.unit.to_si;
@@ -100,46 +91,7 @@ void take(std::vector<Profiled>& all, const std::vector<Hold>& holds, const Meas
   }
 }
 
-/// Vertex of the parabola through the least of the points and its neighbours; the least point
-/// itself at an end.
-Profile::Point vertex_of(const std::vector<Profile::Point>& points) {
-  const auto least = std::ranges::min_element(points, {}, &Profile::Point::loss);
-  if (least == points.begin() || least + 1 == points.end()) return *least;
-  const double a = (least - 1)->value - least->value, b = (least + 1)->value - least->value;
-  const double fa = (least - 1)->loss - least->loss, fb = (least + 1)->loss - least->loss;
-  const double square = (fb / b - fa / a) / (b - a), slope = fa / a - square * a;
-  if (!(square > 0.0)) return *least;
-  const double at = -0.5 * slope / square;
-  return {least->value + at, least->loss + 0.5 * slope * at};
-}
-
 }  // namespace
-
-Profile with_interval(Profile profile) {
-  std::vector<Profile::Point>& points = profile.points;
-  std::ranges::sort(points, {}, &Profile::Point::value);
-  const Profile::Point top = vertex_of(points);
-  profile.top = top.value;
-  for (Profile::Point& p : points) p.loss = std::max(0.0, p.loss - top.loss);
-  const auto crossing = [&](double side) {
-    double x = top.value, root = 0.0;
-    std::vector<Profile::Point> outward;
-    for (const Profile::Point& p : points)
-      if (side * (p.value - top.value) > 0.0) outward.push_back(p);
-    if (side < 0.0) std::ranges::reverse(outward);
-    for (const Profile::Point& p : outward) {
-      const double next = std::sqrt(p.loss);
-      if (next >= stats::half_width_95)
-        return x + (p.value - x) * (stats::half_width_95 - root) / (next - root);
-      x = p.value;
-      root = next;
-    }
-    return std::nan("");
-  };
-  profile.low_95 = crossing(-1.0);
-  profile.high_95 = crossing(1.0);
-  return profile;
-}
 
 std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest& test,
                                  const std::vector<search::Cause>& causes) {
@@ -150,7 +102,7 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
       if (all.size() == most_profiles || !(p.sigma > 0.0)) continue;
       const search::Refit& model = found.sets[static_cast<std::size_t>(cause.set)];
       if (!model.after.fit.estimate.find(p.param)) continue;
-      for (const double value : held_values(p)) holds.push_back({all.size(), value});
+      for (const double value : held_values(found, model, p)) holds.push_back({all.size(), value});
       all.push_back({{.label = search::keyed(cause.term, cause.axis),
                       .set = cause.set,
                       .key = p.key,

@@ -17,17 +17,13 @@ enum class Profiles { left_out, of_the_causes };
 inline constexpr std::size_t most_profiles = 8;
 
 /// The profile of every parameter of the causes that has a sigma: refits with it held at its value
-/// and 1.5 and 3 sigmas to either side, of lambda at 0 and 1 too; farther out and closer
+/// and 1.5 and 3 sigmas to either side, the same where another fit of the same causes ended
+/// (other_valleys.hpp), of lambda at 0 and 1 too; farther out and closer
 /// to the top as long as these do not hold the interval. The likelihood is that by which
 /// causes are weighed, all else integrated out; the prior of the parameter counts, but not that of
 /// a setting, which stands for the distance of grid points. causes: of found.sets, in their order.
 std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest& test,
                                  const std::vector<search::Cause>& causes);
-
-/// Top and interval of a profile from its points, whose losses are counted from anywhere: the top
-/// by a parabola through the highest three, the interval on the signed root of the loss, which is
-/// straight where the profile is a parabola. At least three points with different values.
-Profile with_interval(Profile profile);
 
 /// Gives the parameters of causes the intervals that were profiled.
 void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles);

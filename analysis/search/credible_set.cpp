@@ -118,6 +118,16 @@ const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits) {
   return best;
 }
 
+std::vector<std::size_t> heaviest_within(const Fitted& e, const std::vector<Refit>& refits,
+                                         double within) {
+  std::vector<std::size_t> heavy;
+  if (const Refit* best = heaviest(e, refits))
+    for (std::size_t k = 0; k < refits.size(); ++k)
+      if (refits[k].tolerable() && log_weight(e, refits[k]) >= log_weight(e, *best) - within)
+        heavy.push_back(k);
+  return heavy;
+}
+
 bool is_among(const std::vector<Refit>& refits, const Explanation& in) {
   return std::ranges::any_of(refits, [&](const Refit& r) { return same(r.choices, in); });
 }

@@ -15,6 +15,11 @@ bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover 
 /// does.
 const Refit* heaviest(const Fitted& e, const std::vector<Refit>& refits);
 
+/// Numbers of those that leave no more than chance and whose log weight is within so much of the
+/// heaviest.
+std::vector<std::size_t> heaviest_within(const Fitted& e, const std::vector<Refit>& refits,
+                                         double within);
+
 /// Whether an explanation has been fitted.
 bool is_among(const std::vector<Refit>& refits, const Explanation& in);
 

@@ -16,19 +16,6 @@ namespace {
 
 constexpr int between = 3;  // settings put between each two points
 
-/// The one setting of a candidate that may lie between grid points; none if there is no such or
-/// several.
-std::optional<std::size_t> continuous_setting(const inference::Candidate& c) {
-  std::optional<std::size_t> found;
-  const auto& settings = c.variants.front().settings;
-  for (std::size_t k = 0; k < settings.size(); ++k) {
-    if (TermLibrary::specs[settings[k].first].kind != ParamKind::nonlinear) continue;
-    if (found) return {};
-    found = k;
-  }
-  return found;
-}
-
 /// Time constants, periods and moments are spread by factors.
 double part_of_the_way(double a, double b, double part) {
   return a > 0.0 && b > 0.0 ? a * std::pow(b / a, part) : a + part * (b - a);
@@ -119,6 +106,24 @@ Gaps between_points(const Fitted& e, std::size_t k) {
   return gaps;
 }
 
+/// The gaps within the cells of the library's grid about a value and the cells beside it, as long
+/// as they are wider than `parts` of a cell.
+Gaps about(const inference::Candidate& c, std::size_t place, double value, int parts) {
+  std::vector<std::size_t> grid;
+  for (std::size_t v = 0; v < c.variants.size(); ++v)
+    if (!c.variants[v].between) grid.push_back(v);
+  Gaps gaps;
+  for (std::size_t cell = 0; cell + 1 < grid.size(); ++cell) {
+    const auto at = [&](std::size_t point) {
+      return c.variants[grid[std::min(point, grid.size() - 1)]].settings[place].second;
+    };
+    const bool near = at(cell > 0 ? cell - 1 : 0) <= value && value <= at(cell + 2);
+    if (near && grid[cell + 1] - grid[cell] < static_cast<std::size_t>(parts))
+      for (std::size_t v = grid[cell]; v < grid[cell + 1]; ++v) gaps.insert(v);
+  }
+  return gaps;
+}
+
 template <class GapsOf>
 Fitted refined(Fitted e, const MeasuredTest& test, double least_log_bayes, GapsOf&& gaps_of) {
   Columns columns(e);
@@ -141,6 +146,17 @@ Fitted refined(Fitted e, const MeasuredTest& test, double least_log_bayes, GapsO
 
 }  // namespace
 
+std::optional<std::size_t> continuous_setting(const inference::Candidate& c) {
+  std::optional<std::size_t> found;
+  const auto& settings = c.variants.front().settings;
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    if (TermLibrary::specs[settings[k].first].kind != ParamKind::nonlinear) continue;
+    if (found) return {};
+    found = k;
+  }
+  return found;
+}
+
 Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
   double top = 0.0;
   for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
@@ -149,6 +165,21 @@ Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
 
 Fitted refine_whole_grids(Fitted e, const MeasuredTest& test) {
   return refined(std::move(e), test, -std::numeric_limits<double>::infinity(), between_points);
+}
+
+Fitted refine_about(Fitted e, const MeasuredTest& test, const std::vector<SettingFound>& found) {
+  constexpr int parts = 16;  // of a cell: two rounds
+  for (int round = 0; round < 2; ++round)
+    e = refined(std::move(e), test, -std::numeric_limits<double>::infinity(),
+                [&](const Fitted& now, std::size_t k) {
+                  Gaps gaps;
+                  for (const SettingFound& f : found)
+                    if (f.candidate == k)
+                      gaps.merge(about(now.set.candidates[k],
+                                       *continuous_setting(now.set.candidates[k]), f.value, parts));
+                  return gaps;
+                });
+  return e;
 }
 
 std::size_t variant_at(const inference::Candidate& candidate, const inference::Settings& settings) {

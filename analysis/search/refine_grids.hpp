@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "analysis/search/fitted.hpp"
 
 namespace drift::search {
@@ -15,6 +17,21 @@ Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth);
 /// than the positions of a plan is at neither of them, and another setting scores best. Variants
 /// are numbered anew by that.
 Fitted refine_whole_grids(Fitted e, const MeasuredTest& test);
+
+/// The one setting of a candidate that may lie between grid points, its place among the settings of
+/// a variant; none if there is no such or several.
+std::optional<std::size_t> continuous_setting(const inference::Candidate& c);
+
+/// A candidate whose continuous setting a fit found, SI.
+struct SettingFound {
+  std::size_t candidate = 0;
+  double value = 0.0;
+};
+
+/// The same to a sixteenth of the cells about what was found and the cells beside them, of these
+/// candidates alone: where the plan turns an axis into and out of what an effect follows, an onset
+/// has valleys of a few minutes. Variants are numbered anew by that.
+Fitted refine_about(Fitted e, const MeasuredTest& test, const std::vector<SettingFound>& found);
 
 /// The number of the variant with these settings, which there is.
 std::size_t variant_at(const inference::Candidate& candidate, const inference::Settings& settings);

@@ -7,6 +7,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/other_equation.hpp"
+#include "analysis/search/other_valleys.hpp"
 #include "analysis/search/outside_form.hpp"
 #include "analysis/search/posterior.hpp"
 #include "analysis/search/promising.hpp"
@@ -182,15 +183,40 @@ std::vector<Explanation> not_tried(const Search& s, const std::vector<Refit>& re
   return all;
 }
 
-/// Looks between all points of the library's grids; what was fitted is numbered anew.
+/// Choices of what was fitted, into candidates whose variants were numbered anew.
+void number_anew(std::vector<Refit>& refits, const std::vector<inference::Candidate>& before,
+                 const std::vector<inference::Candidate>& now) {
+  for (Refit& r : refits)
+    for (Choice& c : r.choices)
+      c.variant = variant_at(now[c.candidate], before[c.candidate].variants[c.variant].settings);
+}
+
+/// Looks between all points of the library's grids.
 void look_between_all_points(Search& s, const MeasuredTest& test, std::vector<Refit>& refits) {
   const std::vector<inference::Candidate> before = s.nominal.set.candidates;
   s.nominal = refine_whole_grids(std::move(s.nominal), test);
-  for (Refit& r : refits)
-    for (Choice& c : r.choices)
-      c.variant = variant_at(s.nominal.set.candidates[c.candidate],
-                             before[c.candidate].variants[c.variant].settings);
+  number_anew(refits, before, s.nominal.set.candidates);
   look_at_remainders(s);
+}
+
+/// What may be named is fitted in the other valleys of its settings, too.
+void add_other_valleys(Search& s, const MeasuredTest& test, std::vector<Refit>& refits) {
+  const std::vector<std::size_t> heavy =
+      heaviest_within(s.nominal, refits, ReachLimits::negligible);
+  std::vector<SettingFound> found;
+  for (const std::size_t k : heavy)
+    for (const SettingFound& f : settings_found(s.nominal, refits[k])) found.push_back(f);
+  if (found.empty()) return;
+  const std::vector<inference::Candidate> before = s.nominal.set.candidates;
+  s.nominal = refine_about(std::move(s.nominal), test, found);
+  number_anew(refits, before, s.nominal.set.candidates);
+  std::vector<Explanation> more;
+  for (const std::size_t k : heavy)
+    for (Explanation& other : other_valleys(s.nominal, refits[k]))
+      if (!is_among(refits, other)) more.push_back(std::move(other));
+  for (Refit& r : refit_all(s, test, more))
+    if (std::ranges::none_of(refits, [&](const Refit& o) { return same_valley(s.nominal, r, o); }))
+      refits.push_back(std::move(r));
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
@@ -205,6 +231,7 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   const auto settled = [&](Leftover left, Sizes sizes = Sizes::of_library) {
     if (!can_be_weighed(out.nominal, refits, left, sizes)) return false;
     add_fewer(out, test, refits);
+    add_other_valleys(out, test, refits);
     CredibleSet weighed = weigh(out.nominal, std::move(refits), options.credible);
     out.sets = std::move(weighed.sets);
     out.probability = std::move(weighed.probability);

@@ -12,6 +12,10 @@ bool same(const Explanation& a, const Explanation& b) {
          });
 }
 
+bool same_causes(const Explanation& a, const Explanation& b) {
+  return std::ranges::is_permutation(a, b, {}, &Choice::candidate, &Choice::candidate);
+}
+
 std::vector<int> columns_of(const inference::CandidateSet& set,
                             const std::vector<Choice>& choices) {
   std::vector<int> columns;

@@ -15,6 +15,8 @@ struct Choice {
 using Explanation = std::vector<Choice>;
 
 bool same(const Explanation& a, const Explanation& b);
+/// Whether they are of the same candidates, at whatever variants.
+bool same_causes(const Explanation& a, const Explanation& b);
 
 /// The columns of causes, one after the other; a parameter of two of them twice.
 std::vector<int> columns_of(const inference::CandidateSet& set, const std::vector<Choice>& choices);

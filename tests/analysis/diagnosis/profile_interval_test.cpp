@@ -1,0 +1,82 @@
+// Tops and intervals of profiles, against closed forms.
+#include "analysis/diagnosis/profile_interval.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/stats/normal.hpp"
+
+namespace drift::diagnosis::profile_interval_test {
+namespace {
+
+Profile profile_of(const std::vector<double>& values, double (*loss)(double)) {
+  Profile p;
+  for (const double v : values) p.points.push_back({v, loss(v)});
+  return with_interval(p);
+}
+
+TEST(ProfileInterval, OfAParabolaAreItsTopAndItsSigma) {
+  // Sigma 0.5 about 2.1, counted from -7; no point lies at the top, and they are in no order.
+  const Profile p = profile_of({2.0, 0.5, 3.5, 1.25, 2.75},
+                               [](double v) { return std::pow((v - 2.1) / 0.5, 2) - 7.0; });
+  EXPECT_NEAR(p.top, 2.1, 1e-12);
+  EXPECT_NEAR(p.low_95, 2.1 - 0.5 * stats::half_width_95, 1e-12);
+  EXPECT_NEAR(p.high_95, 2.1 + 0.5 * stats::half_width_95, 1e-12);
+  EXPECT_NEAR(p.points.front().loss, std::pow(1.6 / 0.5, 2), 1e-12);
+}
+
+TEST(ProfileInterval, AreWiderWhereTheLossGrowsSlower) {
+  // Sigma 1 below the top, 4 above it.
+  const Profile p = profile_of({-3.0, -1.5, 0.0, 1.5, 3.0, 9.0},
+                               [](double v) { return v < 0.0 ? v * v : v * v / 16.0; });
+  EXPECT_NEAR(p.low_95, -stats::half_width_95, 0.2);
+  EXPECT_NEAR(p.high_95, 4.0 * stats::half_width_95, 0.6);
+}
+
+TEST(ProfileInterval, HaveNoEndBeyondTheirPoints) {
+  const Profile p = profile_of({0.0, 1.0, 2.0}, [](double v) { return 9.0 * (2.0 - v); });
+  EXPECT_EQ(p.top, 2.0);
+  EXPECT_TRUE(std::isnan(p.high_95));
+  EXPECT_GT(p.low_95, 1.0);
+  EXPECT_LT(p.low_95, 2.0);
+}
+
+/// Two valleys: sigma 0.1 about 1, and sigma 0.5 about 4, by `deeper` less deep.
+template <int deeper>
+double two_valleys(double v) {
+  return std::min(std::pow((v - 1.0) / 0.1, 2), deeper + std::pow((v - 4.0) / 0.5, 2));
+}
+const std::vector<double> about_both{0.7, 0.85, 1.0, 1.15, 1.3, 2.5, 3.25, 4.0, 4.75, 5.5};
+
+TEST(ProfileInterval, OfTwoValleysHoldBothWhereBothAreProbable) {
+  // exp(-2) times five times the width: 40 % of all.
+  const Profile p = profile_of(about_both, two_valleys<4>);
+  EXPECT_NEAR(p.top, 1.0, 1e-12);
+  EXPECT_NEAR(p.low_95, 1.0 - 0.1 * stats::half_width_95, 1e-9);
+  EXPECT_NEAR(p.high_95, 4.0 + 0.5 * stats::half_width_95, 1e-9);
+}
+
+TEST(ProfileInterval, OfTwoValleysHoldOneWhereTheOtherIsNot) {
+  // exp(-6) times five: 1.2 % of all.
+  const Profile p = profile_of(about_both, two_valleys<12>);
+  EXPECT_NEAR(p.low_95, 1.0 - 0.1 * stats::half_width_95, 1e-9);
+  EXPECT_NEAR(p.high_95, 1.0 + 0.1 * stats::half_width_95, 1e-9);
+}
+
+TEST(ProfileInterval, OfAWideValleyBesideANarrowOneIsFoundByThePointsThatAreAskedFor) {
+  // Of the wide valley one point is known; what lies between it and the next is far outside.
+  Profile p = profile_of({0.7, 0.85, 1.0, 1.15, 1.3, 4.0, 9.0}, two_valleys<4>);
+  for (int round = 0; round < 7; ++round) {
+    for (const double v : wanted_points(p, 1.0)) p.points.push_back({v, two_valleys<4>(v)});
+    p = with_interval(std::move(p));
+  }
+  EXPECT_LT(p.points.size(), 30u);
+  EXPECT_NEAR(p.low_95, 1.0 - 0.1 * stats::half_width_95, 0.01);
+  EXPECT_NEAR(p.high_95, 4.0 + 0.5 * stats::half_width_95, 0.05);
+}
+
+}  // namespace
+}  // namespace drift::diagnosis::profile_interval_test
