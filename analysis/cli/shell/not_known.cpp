@@ -23,10 +23,15 @@ std::string not_known(const CLI::App& app, int argc, char** argv) {
     } else if (word.starts_with("--") && word.size() > 2) {
       const std::string given = word.substr(0, word.find('='));
       std::vector<std::string> names;
+      bool takes_next = false;
       for (const CLI::Option* o : (chosen != nullptr ? *chosen : app).get_options(nullptr))
-        for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : o->get_lnames()) {
+          names.push_back("--" + name);
+          if (names.back() == word) takes_next = o->get_items_expected_min() > 0;
+        }
       if (std::find(names.begin(), names.end(), given) == names.end())
         return unknown("option", given, std::vector<std::string_view>(names.begin(), names.end()));
+      if (takes_next) ++i;  // its value, and no command
     }
   }
   return {};

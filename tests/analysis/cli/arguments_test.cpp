@@ -44,6 +44,15 @@ TEST(Arguments, UnknownCommandsAndOptionsGetTheNearestOne) {
   expect_says(refusal("--versoin"), "unknown option '--versoin'");
 }
 
+TEST(Arguments, TheValueOfAnOptionBeforeTheCommandIsNoCommand) {
+  const std::string threads = refusal("--threads 0 check x.toml");
+  expect_says(threads, "--threads: ");
+  expect_says(threads, "1 to 4096");
+  expect_says(refusal("--color maybe check x.toml"), "--color: ");
+  expect_says(refusal("--threads 1 chekc x.toml"), "unknown command 'chekc'");
+  expect_says(refusal("--threads 1 chekc x.toml"), "Did you mean 'check'?");
+}
+
 TEST(Arguments, AnEmptyNameIsNoPlaceForResults) {
   for (const char* command :
        {"run x.toml -o ''", "simulate x.toml -o ''", "export x --format csv -o ''",
