@@ -20,17 +20,37 @@ std::string bare(std::string_view name) {
   return out;
 }
 
-/// "Zeit / s" and "Zeit in s" are the name and its unit.
+/// Whether a slash stands within a unit ("deg/h", "omega deg/h") and not between a quantity and its
+/// unit: "T/K" is the symbol of a quantity in K, and no column is called by a unit alone.
+bool is_in_unit(std::string_view name, std::string_view unit) {
+  const auto blank = name.rfind(' ');
+  const bool symbol = name.size() == 1;
+  const std::string_view word = blank == std::string_view::npos ? name : name.substr(blank + 1);
+  return !symbol && parse_recording_unit(std::string(word) + "/" + std::string(unit));
+}
+
+/// "Zeit / s", "Zeit in s" and "t/s" are the name and its unit.
 void split_off_unit(HeaderCell& cell) {
-  for (const std::string_view between : {" / ", " in "}) {
-    const auto end = cell.name.rfind(between);
-    if (end == std::string::npos || end == 0) continue;
-    const std::string unit(trimmed(std::string_view(cell.name).substr(end + between.size())));
-    if (!parse_recording_unit(unit)) continue;
-    cell.unit = unit;
-    cell.name = trimmed(std::string_view(cell.name).substr(0, end));
-    return;
-  }
+  const auto split_at = [&](std::size_t end, std::size_t between) {
+    const std::string_view name = trimmed(std::string_view(cell.name).substr(0, end)),
+                           unit = trimmed(std::string_view(cell.name).substr(end + between));
+    if (name.empty() || !parse_recording_unit(unit)) return false;
+    if (between == 1 && is_in_unit(name, unit)) return false;
+    cell.unit = std::string(unit);
+    cell.name = std::string(name);
+    return true;
+  };
+  for (const std::string_view between : {" / ", " in "})
+    if (const auto end = cell.name.rfind(between);
+        end != std::string::npos && split_at(end, between.size()))
+      return;
+  for (auto end = cell.name.find('/'); end != std::string::npos; end = cell.name.find('/', end + 1))
+    if (split_at(end, 1)) return;
+}
+
+/// Without the slash before a unit in brackets: "omega/(deg/h)".
+std::string_view without_slash(std::string_view name) {
+  return name.size() > 1 && name.ends_with('/') ? trimmed(name.substr(0, name.size() - 1)) : name;
 }
 
 }  // namespace
@@ -48,10 +68,12 @@ HeaderCell header_cell(std::string_view text) {
     split_off_unit(cell);
     return cell;
   }
-  if (text.back() == (round ? ')' : ']'))
+  if (text.back() == (round ? ')' : ']')) {
     cell.unit = trimmed(text.substr(at + 1, text.size() - at - 2));
-  else
+    cell.name = std::string(without_slash(cell.name));
+  } else {
     cell.open = true;
+  }
   return cell;
 }
 

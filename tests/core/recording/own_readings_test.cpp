@@ -81,6 +81,18 @@ TEST(OwnReadings, UnitsOfTheHeadingDecideWhatAColumnIsNot) {
   EXPECT_EQ(words.columns[1].unit, "g") << "corrected, not in degrees Celsius";
 }
 
+TEST(OwnReadings, AUnitStandsBehindASlashWithoutBlanksToo) {
+  EXPECT_EQ(channels_of("t/s;T/\u00B0C", "1;21,1", "2;21,2"), "times temperature\u00B0C " + acc);
+  EXPECT_EQ(channels_of("t/min;T/K", "1;294,1", "2;294,2"), "timemin temperatureK " + acc);
+  EXPECT_EQ(channels_of("t/s;Gyro x/deg/s", "1;3", "2;4"), "times gyro_xdeg/s " + acc);
+  EXPECT_EQ(channels_of("t/s;gyro_x/(deg/h)", "1;3", "2;4"), "times gyro_xdeg/h " + acc);
+  EXPECT_EQ(channels_of("t/s;T/[K]", "1;294,1", "2;294,2"), "times temperatureK " + acc);
+  // A slash within a unit, or between words, divides no name from its unit.
+  for (const char* header : {"omega deg/h", "deg/h", "\u00B0/h", "an/aus", "v m/s", "/s"})
+    EXPECT_FALSE(header_cell(header).unit) << header << header_cell(header).name;
+  EXPECT_EQ(header_cell("a_x/(m/s^2)").name, "a_x");
+}
+
 TEST(OwnReadings, UnitsOfOtherLanguagesAndGalileosAreKnown) {
   const auto si = [](const char* text) { return parse_recording_unit(text).value().to_si; };
   EXPECT_TRUE(same_unit(parse_recording_unit("\u00B0K").value(), "K"_unit));
