@@ -195,10 +195,25 @@ bool is_date(std::string_view text, StrokeDates order) {
   return take_date(text, order) && text.empty();
 }
 
-std::optional<double> Clock::Reading::advance(std::string_view cell) {
-  const auto now = parse_clock(cell, order);
+/// A date that comes late makes the time go back by less than a day; so does the right one behind a
+/// date that came too early, by a day and more: that is left for others to refuse.
+void Clock::Reading::take_late_date(double& now) {
+  const double step = now - *last;
+  if (step >= day_s) {
+    ahead = true;
+  } else if (step >= 0.0) {
+    ahead = ahead && std::floor(now / day_s) == std::floor(*last / day_s);
+  } else if (step < -0.5 * day_s && step + day_s > 0.0 && !ahead) {
+    now += day_s;
+    ++late;
+  }
+}
+
+std::optional<double> Clock::Reading::advance(std::string_view cell, bool dates_apart) {
+  auto now = parse_clock(cell, order);
   if (!now) return std::nullopt;
   if (!first) first = now;
+  if (last && dates_apart) take_late_date(*now);
   // A time of day begins again at midnight.
   if (last && *now < 2.0 * day_s && *now + 0.5 * day_s < *last) midnights += day_s;
   last = now;
@@ -208,7 +223,7 @@ std::optional<double> Clock::Reading::advance(std::string_view cell) {
 std::optional<double> Clock::read(std::string_view cell) {
   std::vector<std::pair<Reading, double>> next;
   for (Reading r : readings_)
-    if (const auto seconds = r.advance(cell)) next.emplace_back(r, *seconds);
+    if (const auto seconds = r.advance(cell, dates_apart_)) next.emplace_back(r, *seconds);
   if (next.empty()) return std::nullopt;
   if (next.size() > 1 && next[0].second != next[1].second) {
     const auto step = [&](std::size_t i) { return std::abs(next[i].second - seconds_); };

@@ -40,8 +40,11 @@ CsvRows::CsvRows(const std::string& path, CsvLayout layout, const RecordingForma
     raw_.columns.push_back(std::move(column));
   }
   row_.resize(raw_.columns.size());
-  if (const auto date = std::ranges::find(uses_, Role::date, &ColumnUse::role); date != uses_.end())
+  if (const auto date = std::ranges::find(uses_, Role::date, &ColumnUse::role);
+      date != uses_.end()) {
     date_column_ = static_cast<std::size_t>(date - uses_.begin());
+    clock_ = Clock(true);
+  }
 }
 
 std::string CsvRows::here(std::string_view column) const {
@@ -187,7 +190,7 @@ void CsvRows::read_row(std::string_view line) {
     last_row_cut_ = true;
     return;
   }
-  if (date_column_) date_ = cells[*date_column_];
+  if (date_column_) take_date(cells[*date_column_]);
   for (std::size_t i = 0; i < n; ++i)
     if (auto complaint = read_cell(i, cells[i])) pending_.push_back(std::move(*complaint));
   if (!pending_.empty()) {
@@ -248,12 +251,7 @@ void CsvRows::finish() {
                                                           repeated_headers_, repeated_line_)));
   if (windows_line_ > 0)
     note(fmt::format("line {}: bytes that are not UTF-8 are read as Windows-1252", windows_line_));
-  if (!clock_.zero().empty()) {
-    note(fmt::format("time is counted from {}", clock_.zero()));
-    add_fact(raw_, "time_zero", clock_.zero());
-  }
-  if (const std::string how = clock_.remark(); !how.empty())
-    raw_.remarks.add(Weight::doubtful, how);
+  note_clock();
   if (point_line_ > 0 && comma_line_ > 0 && format_.decimal == DecimalMark::automatic)
     problems_.add(std::to_string(std::max(point_line_, comma_line_)),
                   fmt::format("decimal {} here, decimal {} in line {}",

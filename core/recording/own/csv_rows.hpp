@@ -33,6 +33,7 @@ class CsvRows {
   bool is_header_sound();
   void read_comment(std::string_view text);
   void read_row(std::string_view line);
+  void take_date(std::string_view cell);
   std::optional<Complaint> read_cell(std::size_t i, std::string_view cell);
   std::optional<Complaint> read_time(std::size_t i, std::string_view cell);
   std::optional<Complaint> read_position(std::size_t i, std::string_view cell);
@@ -40,6 +41,7 @@ class CsvRows {
   bool may_be_cut(std::string_view cell) const;
   void note_end(std::string_view cell);
   void note(std::string remark);
+  void note_clock();
   void report_pending();
   void finish();
   void reserve();
@@ -57,10 +59,11 @@ class CsvRows {
   std::size_t windows_line_ = 0, point_line_ = 0, comma_line_ = 0;
   Clock clock_;
   std::optional<std::size_t> date_column_;  ///< whose cells stand before the times of day
-  std::string_view date_;                   ///< of this row
-  std::string last_end_;                    ///< the last cell of the row before
-  std::optional<std::size_t> decimals_;     ///< of the last column, where all rows have the same
-  bool rows_have_ends_ = false;             ///< a last cell was seen
+  std::string date_;                        ///< of this row, or of the last one above that has one
+  std::size_t dates_above_ = 0, date_line_ = 0;  ///< rows without a date of their own; the first
+  std::string last_end_;                         ///< the last cell of the row before
+  std::optional<std::size_t> decimals_;  ///< of the last column, where all rows have the same
+  bool rows_have_ends_ = false;          ///< a last cell was seen
   bool last_row_cut_ = false;
   std::size_t footer_lines_ = 0, footer_line_ = 0;  ///< of text, up to here; the first of them
   std::size_t repeated_headers_ = 0, repeated_line_ = 0;

@@ -110,11 +110,44 @@ std::optional<CsvRows::Complaint> CsvRows::read_time(std::size_t i, std::string_
                      : date_column_ ? "a time of day such as 13:05:10.250 beside recording.date"
                                     : "a number, or a time such as 2026-03-01T13:05:10.250",
                      "Write all times alike"};
+  constexpr double half_a_day = 43200.0;
+  if (date_column_ && !column.values.empty() && *seconds < column.values.back() - half_a_day)
+    return Complaint{
+        here("time"), fmt::format("{} {} comes before the row above", date_, cell),
+        "dates that change at midnight, as the clock does",
+        "Correct the dates where they change too early or too late, or leave recording.date out of "
+        "the study file: without it the times of day go on past midnight"};
   column.clock = true;
   column.unit = "s";
   ++column.numbers;
   row_[i] = *seconds;
   return std::nullopt;
+}
+
+/// Some logs write a date only where it changes.
+void CsvRows::take_date(std::string_view cell) {
+  if (!cell.empty())
+    date_ = cell;
+  else if (!date_.empty() && dates_above_++ == 0)
+    date_line_ = lines_.number();
+}
+
+/// What there is to say of times of a clock.
+void CsvRows::note_clock() {
+  if (!clock_.zero().empty()) {
+    note(fmt::format("time is counted from {}", clock_.zero()));
+    add_fact(raw_, "time_zero", clock_.zero());
+  }
+  if (dates_above_ > 0)
+    note(fmt::format("{} row{}, from line {} on, without a date: that of the rows above is taken",
+                     dates_above_, dates_above_ == 1 ? "" : "s", date_line_));
+  if (clock_.late_dates() > 0)
+    raw_.remarks.add(Weight::doubtful,
+                     fmt::format("{} date{} of the day before behind midnight: the next day is "
+                                 "taken",
+                                 clock_.late_dates(), clock_.late_dates() == 1 ? " is" : "s are"));
+  if (const std::string how = clock_.remark(); !how.empty())
+    raw_.remarks.add(Weight::doubtful, how);
 }
 
 std::optional<CsvRows::Complaint> CsvRows::read_position(std::size_t i, std::string_view cell) {

@@ -10,6 +10,7 @@
 
 #include "core/base/utf8.hpp"
 #include "core/recording/line_reader.hpp"
+#include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_format.hpp"
 #include "core/recording/own/guess_gimbals.hpp"
@@ -33,6 +34,7 @@ constexpr std::size_t most_words = 100;
 /// Counts what stands in the cells of a column.
 void look_at(GuessedColumn& column, std::string_view cell) {
   if (cell.empty()) return;
+  column.basic_times = column.basic_times && parse_clock(fmt::format("20000101T{}", cell));
   const ParsedCell parsed = parse_cell(cell, DecimalMark::automatic);
   if (parsed.kind == ParsedCell::Kind::number && std::isfinite(parsed.value)) {
     column.low = column.numbers == 0 ? parsed.value : std::min(column.low, parsed.value);
@@ -40,6 +42,7 @@ void look_at(GuessedColumn& column, std::string_view cell) {
     if (column.numbers > 0 && parsed.value < column.last && column.back.first == column.back.second)
       column.back = {column.last, parsed.value};
     column.last = parsed.value;
+    column.whole = column.whole && parsed.value == std::round(parsed.value);
     ++column.numbers;
   } else if (parsed.kind != ParsedCell::Kind::number) {
     ++column.texts;

@@ -23,6 +23,10 @@ struct GuessedColumn {
   std::string unit;        ///< of the channel; "?": not to be guessed; empty: none needed
   bool by_values = false;  ///< the channel is guessed by what the column holds, not by its name
   double last = 0.0;       ///< number
+  bool whole = true;       ///< all numbers are
+  bool basic_times =
+      true;  ///< all cells hold a time of day as ISO 8601 has it behind a date, 130510
+  bool needs_date = false;  ///< they are such times, and a column of dates stands beside them
   std::pair<double, double> back{0.0, 0.0};  ///< the first number that is smaller than the last one
                                              ///< before it: that one and it; equal: none is
 };

@@ -55,7 +55,8 @@ std::string by_size(const GuessedColumn& c, const Unit& stated, const std::strin
 std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) {
   const auto quantity = known_quantity(c.channel);
   if (!quantity || !quantity->needs_unit) return {};
-  if (c.channel == "time" && c.numbers == 0 && c.texts > 0) return {};  // times of a clock
+  // Times of a clock.
+  if (c.channel == "time" && (c.needs_date || (c.numbers == 0 && c.texts > 0))) return {};
   if (c.header.unit)
     if (const auto unit = parse_recording_unit(*c.header.unit))
       return by_size(c, *unit, *c.header.unit);

@@ -80,7 +80,7 @@ std::vector<const GuessedColumn*> free_columns(const GuessedFile& file) {
   for (const GuessedColumn& c : file.columns)
     if (c.channel.empty() && c.numbers > 0 && !c.header.name.empty() &&
         !known_quantity(c.header.name) && c.header.name != file.format.counter &&
-        c.header.name != file.counter)
+        c.header.name != file.counter && c.header.name != file.format.date)
       free.push_back(&c);
   return free;
 }

@@ -1,10 +1,13 @@
 #include "core/recording/own/guess_time.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
+#include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_check.hpp"
 
@@ -26,6 +29,20 @@ bool holds_times_of_day(const GuessedColumn& c) {
   return all_words(c, [](const std::string& text, StrokeDates) {
     return parse_clock("2000-01-01 " + text).has_value();
   });
+}
+
+/// Dates as numbers, 20260301. Low and high are looked at, which of other whole numbers are hardly
+/// both a date.
+bool holds_dates_of_numbers(const GuessedColumn& c) {
+  return c.numbers > 0 && c.texts == 0 && c.whole && !c.header.unit &&
+         is_date(fmt::format("{:.0f}", c.low)) && is_date(fmt::format("{:.0f}", c.high));
+}
+
+/// "130510" in all cells: of other numbers of six digits 64 in 100 are no such time, as those that
+/// go on by one are after a minute.
+bool holds_basic_times(const GuessedColumn& c) {
+  constexpr std::size_t enough = 10;
+  return c.numbers >= enough && c.texts == 0 && c.basic_times && !stated_unit(c);
 }
 
 /// "T" without a unit may be anything.
@@ -74,13 +91,17 @@ void name_time_by_values(GuessedFile& file) {
     if (one) time = std::ranges::find_if(file.columns, clock);
     time->channel = "time";
   }
-  if (!holds_times_of_day(*time)) return;
-  // A date that stays one past midnight is that of the file: the clock goes on without it.
-  const auto date = [](const GuessedColumn& c) {
-    return c.channel.empty() && c.words.size() > 1 && holds_dates(c);
+  const bool basic = holds_basic_times(*time);
+  if (!basic && !holds_times_of_day(*time)) return;
+  // A date that stays one past midnight is that of the file: the clock goes on without it, unless
+  // it is a number alone.
+  const auto date = [&](const GuessedColumn& c) {
+    const bool changes = c.words.size() > 1 || c.high > c.low;
+    return c.channel.empty() && (basic || changes) && (holds_dates(c) || holds_dates_of_numbers(c));
   };
-  if (std::ranges::count_if(file.columns, date) == 1)
-    file.format.date = std::ranges::find_if(file.columns, date)->header.name;
+  if (std::ranges::count_if(file.columns, date) != 1) return;
+  file.format.date = std::ranges::find_if(file.columns, date)->header.name;
+  time->needs_date = basic;
 }
 
 void count_clock_of_numbers(GuessedFile& file) {

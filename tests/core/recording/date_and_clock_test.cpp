@@ -1,4 +1,5 @@
 // Logs with the date in one column and the time of day in another.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/recording/own/guess.hpp"
@@ -67,6 +68,76 @@ TEST(DateAndClock, AreReadAsOneTime) {
   EXPECT_EQ(r.facts.back(),
             (std::pair<std::string, std::string>{"time_zero", "14.03.2026 23:59:58"}));
   EXPECT_EQ(r.find("Datum"), nullptr);
+}
+
+TEST(DateAndClock, DatesAreNumbersToo) {
+  const Folder folder;
+  const auto guess = [&](const std::string& rows) {
+    return columns(guess_file(folder.write("own.csv", "Date;Time" + acc_header + rows)));
+  };
+  EXPECT_EQ(guess("20260314;23:59:58" + level + "20260315;00:00:00" + level),
+            "- time acc_x acc_y acc_z @Date");
+  EXPECT_EQ(guess("20269914;23:59:58" + level + "20269915;00:00:00" + level),
+            "- time acc_x acc_y acc_z @")
+      << "no date";
+  std::string basic, seconds;
+  for (int second = 50; second < 60; ++second)
+    basic += fmt::format("20260314;2359{}{}", second, level);
+  EXPECT_EQ(guess(basic), "- time acc_x acc_y acc_z @Date");
+  for (int second = 55; second < 65; ++second)
+    seconds += fmt::format("20260314;2359{}{}", second, level);
+  EXPECT_EQ(guess(seconds), "- time acc_x acc_y acc_z @") << "235961 is no time of day";
+  const GuessedFile file = guess_file(folder.write("own.csv", "Date;Time" + acc_header + basic));
+  EXPECT_TRUE(file.columns[1].unit.empty()) << "times of a clock have none";
+}
+
+/// Seconds since the first of rows with a date and a time each, as the guessed section reads them.
+std::vector<double> times(const std::vector<std::string>& rows, std::string& remarks) {
+  const Folder folder;
+  std::string text = "Datum;Uhrzeit" + imu_header;
+  for (const std::string& row : rows) text += row + still;
+  const std::string path = folder.write("imu.csv", text);
+  const Recording r =
+      read_recording(path, guess_file(path).format, RecordingKind::strapdown, gravity);
+  remarks = testing::PrintToString(r.remarks.texts());
+  return r.find("time")->values;
+}
+
+TEST(DateAndClock, ADateMayStandWhereItChangesAlone) {
+  std::string remarks;
+  EXPECT_EQ(
+      times({"14.03.2026;23:59:58", ";23:59:59", "15.03.2026;00:00:00", ";00:00:01"}, remarks),
+      (std::vector<double>{0.0, 1.0, 2.0, 3.0}));
+  EXPECT_NE(remarks.find("2 rows, from line 3 on, without a date"), std::string::npos) << remarks;
+}
+
+TEST(DateAndClock, ADateThatChangesLateIsThatOfTheNextDay) {
+  std::string remarks;
+  EXPECT_EQ(times({"14.03.2026;23:59:58", "14.03.2026;00:00:00", "14.03.2026;00:00:02",
+                   "15.03.2026;00:00:04"},
+                  remarks),
+            (std::vector<double>{0.0, 2.0, 4.0, 6.0}));
+  EXPECT_NE(remarks.find("2 dates are of the day before behind midnight"), std::string::npos)
+      << remarks;
+  // After a pause of days, too, once a midnight has passed as it should.
+  EXPECT_EQ(times({"13.03.2026;23:59:58", "16.03.2026;23:59:58", "17.03.2026;00:00:00",
+                   "17.03.2026;23:59:58", "17.03.2026;00:00:00", "18.03.2026;00:00:02"},
+                  remarks),
+            (std::vector<double>{0.0, 259200.0, 259202.0, 345600.0, 345602.0, 345604.0}));
+}
+
+TEST(DateAndClock, ADateThatChangesEarlyIsRefused) {
+  std::string remarks;
+  try {
+    times({"14.03.2026;23:59:56", "15.03.2026;23:59:58", "15.03.2026;00:00:00"}, remarks);
+    FAIL() << "read";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("4:time: 15.03.2026 00:00:00 comes before"),
+              std::string::npos)
+        << e.what();
+    EXPECT_NE(std::string(e.what()).find("leave recording.date out"), std::string::npos)
+        << e.what();
+  }
 }
 
 std::string refused(const std::string& date, const std::string& time) {
