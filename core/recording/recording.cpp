@@ -21,7 +21,6 @@
 #include "core/recording/recording_mat.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/recording_read_back.hpp"
-#include "core/recording/rows/even_times.hpp"
 
 namespace drift {
 namespace {
@@ -147,7 +146,6 @@ Recording read_recording(const std::string& path, const RecordingFormat& format,
   }
   Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
   problems.throw_if_any();
-  if (kind == RecordingKind::platform) take_even_times(recording);
   return recording;
 }
 

@@ -12,6 +12,7 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
 #include "core/recording/rows/count_positions.hpp"
+#include "core/recording/rows/even_times.hpp"
 
 namespace drift {
 namespace {
@@ -283,6 +284,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     const std::string why = kind == RecordingKind::platform ? count_positions(r) : "";
     check_columns(r, kind, why, problems);
   }
+  if (kind == RecordingKind::platform) take_even_times(r);
   const std::size_t before = problems.count();
   check_time(r, problems);
   const bool in_order = problems.count() == before;

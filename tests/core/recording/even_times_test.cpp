@@ -46,6 +46,28 @@ TEST(EvenTimes, HoursWithTwoDecimalsAreAMinuteApartAgain) {
   }
 }
 
+TEST(EvenTimes, RowsThatShareAMinuteAreHalfOfItApart) {
+  Recording r = rows(6, [](double t, int) { return 120.0 * std::floor(t / 120.0); });
+  take_even_times(r);
+  ASSERT_FALSE(r.remarks.empty());
+  const std::vector<double>& t = r.find("time")->values;
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    // Two rows a step: what is written is 0 or 60 s too early, 30 s in the mean of 40 rows.
+    EXPECT_NEAR(t[k], 60.0 * static_cast<double>(k + 1) - 30.0, 1e-9) << k;
+  }
+}
+
+TEST(EvenTimes, RowsThatWereWrittenTwiceStayAsTheyAre) {
+  Recording r = rows(6, [](double, int row) { return 60.0 * (row / 2); });
+  Channel acc{"acc_x", unit::g, {}};
+  for (std::size_t k = 0; k < r.rows(); ++k) acc.values.push_back(static_cast<double>(k / 2));
+  r.channels.push_back(acc);
+  const std::vector<double> before = r.find("time")->values;
+  take_even_times(r);
+  EXPECT_EQ(r.find("time")->values, before);
+  EXPECT_TRUE(r.remarks.empty());
+}
+
 TEST(EvenTimes, OtherRecordingsStayAsTheyAre) {
   Stream random(4, 0, Purpose::test);
   const std::function<double(double, int)> all[] = {
@@ -53,6 +75,7 @@ TEST(EvenTimes, OtherRecordingsStayAsTheyAre) {
       [](double t, int) { return rounded(t, 0.1); },             // fine enough, and exact
       [&](double t, int) { return t + 3.0 * random.normal(); },  // rows that do scatter
       [](double t, int row) { return t + 60.0 * (row / 10); },   // every tenth is lost
+      [](double, int row) { return 60.0 * (row - row / 5); },    // every fifth stands twice
       [](double, int row) { return row % 40 < 20 ? 30.0 * row : 60.0 * row - 600.0 * (row / 40); },
   };
   for (const auto& written : all) {
