@@ -13,6 +13,7 @@
 #include "core/recording/recording_units.hpp"
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
+#include "core/recording/rows/turned_rows.hpp"
 
 namespace drift {
 namespace {
@@ -48,13 +49,11 @@ void check_columns(const Recording& r, RecordingKind kind, const std::string& no
   for (const auto& c : r.channels) present += (present.empty() ? "" : ", ") + c.name;
   const bool strapdown = kind == RecordingKind::strapdown;
   const std::string hint =
-      strapdown ? "Add it, or name the column that holds it in [recording] of the study file "
-                  "(`driftscope look` proposes how); a recording of a gimballed platform needs a "
-                  "study without kind = "
-                  "\"strapdown\""
-                : "Add it, or name the column that holds it in [recording] of the study file "
-                  "(`driftscope look` proposes how); sensors fixed to a case need [plan] kind = "
-                  "\"strapdown\" in the study";
+      std::string(
+          "Add it, or name the column that holds it in [recording] of the study file "
+          "(`driftscope look` proposes how); ") +
+      (strapdown ? "a recording of a gimballed platform needs a study without kind = \"strapdown\""
+                 : "sensors fixed to a case need [plan] kind = \"strapdown\" in the study");
   const auto need = [&](std::string_view name) {
     if (!r.find(name))
       problems.add(name, "the column is missing",
@@ -151,7 +150,7 @@ void check_position(const Recording& r, RowOrder order, Problems& problems) {
                    "a whole number from 1 on",
                    "Give the number of the plan's position, or say in [recording] of the study "
                    "file which is which: positions = { \"NUMBER IN THE FILE\" = NUMBER IN THE "
-                   "PLAN, ... }");
+                   "PLAN, ... }, 0 where it is turned between two positions");
     } else if (p < last && order == RowOrder::known) {
       problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
                    "positions in the order of the plan",
@@ -284,7 +283,10 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     const std::string why = kind == RecordingKind::platform ? count_positions(r) : "";
     check_columns(r, kind, why, problems);
   }
-  if (kind == RecordingKind::platform) take_even_times(r);
+  if (kind == RecordingKind::platform) {
+    take_turned_rows(r);
+    take_even_times(r);
+  }
   const std::size_t before = problems.count();
   check_time(r, problems);
   const bool in_order = problems.count() == before;

@@ -97,7 +97,8 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
   const std::string blanks = blanks_of(file), unplaced = what_has_no_place(file);
   const std::string said = blanks + (blanks.empty() || unplaced.empty() ? "" : " ") + unplaced;
   LookedAt seen{.told = without_blanks(file),
-                .named = file.format.positions.size(),
+                .named = static_cast<std::size_t>(std::ranges::count_if(
+                    file.format.positions, [](const auto& named) { return named.second > 0; })),
                 .above = file.text ? preamble_site(path, file.layout) : PreambleSite()};
   std::string refused;
   if (file.complete || file.rows == 0) try {

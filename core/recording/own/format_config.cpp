@@ -98,19 +98,19 @@ void read_positions(Section& section, const std::vector<std::string>& names,
     const Node& value = member.value;
     const auto named =
         value.is(Node::Kind::string) ? std::ranges::find(names, value.text) : names.end();
-    std::int64_t number = 0;
-    if (value.is(Node::Kind::integer) && value.integer >= 1 && value.integer <= most)
+    std::int64_t number = -1;
+    if (value.is(Node::Kind::integer) && value.integer >= 0 && value.integer <= most)
       number = value.integer;
     if (named != names.end()) number = named - names.begin() + 1;
-    if (number == 0) {
+    if (number < 0) {
       const std::vector<std::string_view> known(names.begin(), names.end());
-      section.report().error(
-          value.at,
-          fmt::format("'{}' is {} (expected a position of the plan: 1 to {}, or its name). {}", key,
-                      describe(value), most,
-                      value.is(Node::Kind::string)
-                          ? config::suggestion(value.text, known, "Correct it")
-                          : "Correct it"));
+      section.report().error(value.at,
+                             fmt::format("'{}' is {} (expected a position of the plan: 1 to {}, or "
+                                         "its name, or 0 where it is turned). {}",
+                                         key, describe(value), most,
+                                         value.is(Node::Kind::string)
+                                             ? config::suggestion(value.text, known, "Correct it")
+                                             : "Correct it"));
       continue;
     }
     format.positions.emplace_back(member.key, static_cast<int>(number));

@@ -49,7 +49,7 @@ void look_at(GuessedColumn& column, std::string_view cell) {
     if (column.last_text == cell) return;
     column.last_text = cell;
     if (std::ranges::find(column.words, cell) != column.words.end())
-      column.again = true;
+      column.again.emplace(cell);
     else if (column.words.size() < most_words)
       column.words.emplace_back(cell);
   }
@@ -190,7 +190,7 @@ void name_position_by_values(GuessedFile& file) {
       std::ranges::find(file.columns, "position", &GuessedColumn::channel) != file.columns.end())
     return;
   const auto few_texts = [&](const GuessedColumn& c) {
-    return c.channel.empty() && c.texts == file.rows && !c.again && c.words.size() > 1 &&
+    return c.channel.empty() && c.texts == file.rows && c.again.empty() && c.words.size() > 1 &&
            c.words.size() < most_words && !holds_dates(c) && !holds_times(c);
   };
   if (std::ranges::count_if(file.columns, few_texts) != 1) return;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +17,7 @@ struct GuessedColumn {
   double low = 0.0, high = 0.0;        ///< of the numbers
   std::vector<std::string> words;      ///< the first different texts, in order
   std::string last_text;
-  bool again = false;  ///< a text stands again after another one
+  std::set<std::string, std::less<>> again;  ///< texts that stand again after another one
   /// Of positions: their numbers in order where one is left out; a plan that is made of the
   /// recording has none of that number.
   std::vector<std::string> numbered;

@@ -50,6 +50,13 @@ std::string by_size(const GuessedColumn& c, const Unit& stated, const std::strin
   return is_in_kelvins(c, stated) ? "K" : is_in_celsius(c, stated) ? "degC" : written;
 }
 
+/// Whether a text in the column of positions says that it is turned: the only one that comes back,
+/// or the only one beside numbers. One that is the first may be a position to return to.
+bool is_turned(const GuessedColumn& c, const std::string& word) {
+  if (c.again.empty()) return c.texts > 0 && c.numbers > 0 && c.words.size() == 1;
+  return c.again.size() == 1 && c.again.contains(word) && c.words.front() != word;
+}
+
 }  // namespace
 
 std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) {
@@ -89,9 +96,10 @@ void fill_format(GuessedFile& file) {
     MappedColumn m{c.channel, own_name(c), {}, 1.0};
     if (!c.unit.empty()) m.unit = c.unit;
     if (c.channel != m.own || (!c.unit.empty() && !c.header.unit)) file.format.columns.push_back(m);
-    if (c.channel == "position")
-      for (std::size_t i = 0; i < c.words.size(); ++i)
-        file.format.positions.emplace_back(c.words[i], static_cast<int>(i + 1));
+    int number = 0;
+    for (const std::string& word : c.words)
+      if (c.channel == "position")
+        file.format.positions.emplace_back(word, is_turned(c, word) ? 0 : ++number);
   }
   if (!file.format.header.empty() && file.format.columns.empty()) file.complete = false;
 }

@@ -121,6 +121,7 @@ void GuessPosition::name_channel(GuessedFile& file) const {
     const Candidate& c = candidates_.front();
     const auto rows = [](const Stretch& s) { return s.rows >= PositionLimits::fewest_rows; };
     if (!c.may_be || c.stretches.size() < 2 || !std::ranges::all_of(c.stretches, rows)) return;
+    if (*c.labels.begin() < 1.0 && cell_number(c.stretches.front().label) >= 1.0) return;  // turned
     const double most = PositionLimits::most_left_out * static_cast<double>(c.labels.size());
     std::vector<std::string> labels = own_labels(c);
     if (labels.size() > PositionLimits::most_labels) return;

@@ -61,6 +61,10 @@ std::string guessed_by_values(const GuessedFile& file) {
     if (c.by_values && c.channel == "position")
       text += fmt::format("{}position by its {}: check", text.empty() ? "" : "; ",
                           c.numbers > 0 ? "numbers, which change as the attitude does" : "texts");
+  for (const auto& [word, number] : file.format.positions)
+    if (number == 0)
+      text += fmt::format("{}positions: it is turned where {} stands: check",
+                          text.empty() ? "" : "; ", in_quotes(word));
   for (const GuessedColumn& c : file.columns)
     if (c.channel == "temperature" && own_name(c) != c.header.name)
       text += fmt::format("{}temperature in [{}] by its values: check", text.empty() ? "" : "; ",

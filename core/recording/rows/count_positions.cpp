@@ -11,6 +11,7 @@
 
 #include "core/recording/gimbal_chain.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/turned_rows.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift {
@@ -149,16 +150,6 @@ By made_by(const Motion& motion, const Rows& t) {
   return case_alone ? By::case_alone : By::hand;
 }
 
-/// Leaves out rows.
-void remove(Recording& r, const std::vector<bool>& out) {
-  const auto without = [&](auto& values) {
-    std::size_t k = 0;
-    std::erase_if(values, [&](const auto&) { return out[k++]; });
-  };
-  for (Channel& c : r.channels) without(c.values);
-  without(r.lines);
-}
-
 /// What becomes of the rows.
 struct Counted {
   std::vector<double> position, slew;
@@ -260,7 +251,7 @@ std::string count_positions(Recording& r) {
   r.channels.push_back({"position", unit::one, std::move(c.position)});
   if (std::ranges::find(c.slew, 1.0) != c.slew.end() && r.find("phase") == nullptr)
     r.channels.push_back({"phase", unit::one, std::move(c.slew)});
-  remove(r, c.out);
+  leave_out_rows(r, c.out);
   return "";
 }
 

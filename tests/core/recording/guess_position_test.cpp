@@ -84,5 +84,22 @@ TEST(GuessPosition, NumbersUnderItsNameThatNoPlanHasAreListed) {
   EXPECT_EQ(mapping(guess("Lage", [](int row) { return std::to_string(row / 20 % 3); })), "Lage");
 }
 
+TEST(GuessPosition, ATextThatComesBackBetweenPositionsIsNone) {
+  const auto between = [](const std::array<const char*, 5>& texts) {
+    return [=](int row) { return std::string(texts[static_cast<std::size_t>(row / 20)]); };
+  };
+  const GuessedFile file = guess("Lage", between({"1", "dreht", "2", "dreht", "3"}), 5);
+  EXPECT_EQ(mapping(file), "Lage dreht=0");
+  EXPECT_NE(recording_section(file).find("turned where 'dreht' stands: check"), std::string::npos)
+      << recording_section(file);
+  EXPECT_EQ(mapping(guess("Lage", between({"auf", "dreht", "ab", "dreht", "Nord"}), 5)),
+            "Lage auf=1 dreht=0 ab=2 Nord=3");
+  EXPECT_EQ(mapping(guess("Lage", between({"auf", "ab", "auf", "Nord", "auf"}), 5)),
+            "Lage auf=1 ab=2 Nord=3")
+      << "a position to return to";
+  EXPECT_EQ(mapping(guess("Lage", between({"1", "0", "2", "0", "3"}), 5)), "Lage");
+  EXPECT_EQ(mapping(guess("Lage", between({"1", "1", "0", "2", "2"}), 5)), "Lage");
+}
+
 }  // namespace
 }  // namespace drift::guess_position_test
