@@ -180,7 +180,10 @@ void name_channels(GuessedFile& file) {
     return std::ranges::any_of(
         file.columns, [&](const GuessedColumn& c) { return c.channel.starts_with(start); });
   };
-  if (has("gyro_") && !has("gimbal_") && !has("position")) file.kind = RecordingKind::strapdown;
+  if (!has("gyro_") || has("gimbal_") || has("position")) return;
+  file.kind = RecordingKind::strapdown;
+  for (GuessedColumn& c : file.columns)  // a navigator's own, and of no turntable
+    if (c.channel == "case_heading") c.channel.clear();
 }
 
 /// The one column of a few texts, each in one stretch of rows, may name the positions; dates and

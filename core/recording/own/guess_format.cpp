@@ -74,8 +74,11 @@ std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) 
   if (c.channel.starts_with("gyro_") && c.header.name.starts_with("field.")) return "rad/s";  // ROS
   if (c.channel == "time") return unit_of_epoch(c);
   constexpr double full_turn = 7.0;  // [rad] no angle is larger
-  if (c.channel.starts_with("gimbal_") && std::max(-c.low, c.high) > full_turn) return "deg";
-  return c.channel == "temperature" ? "" : "?";  // a covariate does without
+  const bool heading = c.channel == "case_heading";
+  if ((heading || c.channel.starts_with("gimbal_")) && std::max(-c.low, c.high) > full_turn)
+    return "deg";
+  if (heading && c.low == 0.0 && c.high == 0.0) return "deg";  // North in every unit
+  return c.channel == "temperature" ? "" : "?";                // a covariate does without
 }
 
 std::string own_name(const GuessedColumn& c) {

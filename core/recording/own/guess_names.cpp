@@ -56,6 +56,10 @@ constexpr std::string_view position_words[] = {"position",   "pos",      "lage",
                                                "stellung",   "lagenr",   "posnr",
                                                "positionno", "posicion", "posizione"};
 constexpr std::string_view temperature_words[] = {"temperature", "temp", "temperatur", "tc"};
+constexpr std::string_view heading_words[] = {
+    "heading",        "caseheading",  "headingcase", "tableheading", "turntableheading",
+    "turntableangle", "tableangle",   "turntable",   "tischwinkel",  "drehtischwinkel",
+    "drehtisch",      "sockelwinkel", "caseazimuth", "tableazimuth"};
 constexpr std::string_view acc_words[] = {"a",
                                           "acc",
                                           "accel",
@@ -137,6 +141,7 @@ std::string guessed_channel(std::string_view header) {
   if (is_one(word, time_words)) return "time";
   if (is_one(word, position_words)) return "position";
   if (is_one(word, temperature_words)) return "temperature";
+  if (is_one(word, heading_words)) return "case_heading";
   if (word == "phase") return "phase";
   for (const auto& [places, channel] : gimbal_places)
     for (const auto place : places) {

@@ -93,6 +93,21 @@ TEST(OwnReadings, AUnitStandsBehindASlashWithoutBlanksToo) {
   EXPECT_EQ(header_cell("a_x/(m/s^2)").name, "a_x");
 }
 
+TEST(OwnReadings, AHeadingIsNamedWithoutAColumnOfPositions) {
+  for (const char* name : {"Table heading", "Heading", "Case heading", "table_heading"})
+    EXPECT_EQ(channels_of((std::string("t [s];") + name).c_str(), "1;0", "2;45"),
+              "times case_headingdeg " + acc)
+        << name;
+  EXPECT_EQ(channels_of("t [s];Case heading [rad]", "1;0", "2;0,8"),
+            "times case_headingrad " + acc);
+  EXPECT_EQ(channels_of("t [s];Tischwinkel", "1;0", "2;0"), "times case_headingdeg " + acc);
+  EXPECT_EQ(channels_of("t [s];Tischwinkel", "1;0", "2;0,8"), "times case_heading? " + acc);
+  EXPECT_EQ(channels_of("t [s];Heading [m]", "1;0", "2;45"), "times - " + acc);
+  EXPECT_EQ(channels_of("t [s];gyro_x [deg/s];Heading", "1;3;0", "2;4;45"),
+            "times gyro_xdeg/s - " + acc)
+      << "a navigator's own";
+}
+
 TEST(OwnReadings, UnitsOfOtherLanguagesAndGalileosAreKnown) {
   const auto si = [](const char* text) { return parse_recording_unit(text).value().to_si; };
   EXPECT_TRUE(same_unit(parse_recording_unit("\u00B0K").value(), "K"_unit));
