@@ -20,8 +20,9 @@ using Limits = GimbalZeroLimits;
 
 /// Both instruments over the interval of one row.
 struct Seen {
-  Vec3 force;          ///< specific force, of length 1, platform axes
-  Vec3 before, after;  ///< gimbal angles at its ends [rad]
+  Vec3 force;                ///< specific force, of length 1, platform axes
+  Vec3 before, after;        ///< gimbal angles at its ends [rad]
+  std::size_t position = 0;  ///< from 0, in the order of the rows
 };
 
 /// The rows of dwells that have the row before them, and the positions they are of.
@@ -35,9 +36,9 @@ std::vector<Seen> seen_in(const Recording& r, std::size_t& positions) {
     const auto f = measured(r, accelerometer_channels, i), end = measured(r, gimbal_channels, i),
                begin = measured(r, gimbal_channels, i - 1);
     if (!f || !end || !begin || !(f->norm() > 0.0)) continue;
-    all.push_back({f->normalized(), *begin, *end});
     if (position->values[i] != last) ++positions;
     last = position->values[i];
+    all.push_back({f->normalized(), *begin, *end, positions - 1});
   }
   return all;
 }
@@ -56,6 +57,31 @@ double rms(const std::vector<Seen>& all, const Vec3& zero) {
   double sum = 0.0;
   for (const Seen& s : all) sum += difference(s, zero).squaredNorm();
   return std::sqrt(sum / static_cast<double>(all.size()));
+}
+
+/// The same of what changes of it within the positions, the mean of each taken off: biases,
+/// misalignments and zeros hardly do, but what a gimbal of the wrong sign makes does as it turns.
+double rms_within(const std::vector<Seen>& all, std::size_t positions) {
+  std::vector<Vec3> sum(positions, Vec3::Zero());
+  std::vector<double> rows(positions, 0.0);
+  double squares = 0.0;
+  for (const Seen& s : all) {
+    const Vec3 d = difference(s, Vec3::Zero());
+    sum[s.position] += d;
+    rows[s.position] += 1.0;
+    squares += d.squaredNorm();
+  }
+  for (std::size_t p = 0; p < positions; ++p) squares -= sum[p].squaredNorm() / rows[p];
+  return std::sqrt(std::max(0.0, squares) / static_cast<double>(all.size()));
+}
+
+/// The chance that a change of sign of one of three gimbals leaves so small a part of what changes
+/// within the positions, if that is of no sign: a slope of Up about two level axes in each of n / 2
+/// positions, in no direction sooner than in another. Of all directions in n dimensions less than
+/// part^(n - 1) lie so near to a line.
+double chance_of_part(double part, std::size_t positions) {
+  const double n = 2.0 * static_cast<double>(positions);
+  return part < 1.0 ? 3.0 * std::pow(part, n - 1.0) : 1.0;
 }
 
 /// What is to be added to one gimbal, by Gauss and Newton; infinite where no row shows it.
@@ -112,7 +138,6 @@ std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& record
   const std::vector<Seen> all = seen_in(recording, positions);
   if (positions < Limits::positions) return "";
   const double expected = expected_difference(study), before = rms(all, Vec3::Zero());
-  if (before < Limits::least * expected) return "";
   std::array<double, 3> left{};
   for (int g = 0; g < 3; ++g)
     left[static_cast<std::size_t>(g)] = rms(reversed(all, g), Vec3::Zero());
@@ -120,16 +145,23 @@ std::string gimbal_of_wrong_sign(const mc::Study& study, const Recording& record
   const bool alone = std::ranges::count_if(left, [&](double other) {
                        return other < Limits::clearly * left[best];
                      }) == 1;
-  if (!alone || left[best] > Limits::left * expected || before < Limits::clearly * left[best])
+  if (!alone || left[best] > Limits::left * expected) return "";
+  const bool large = before >= Limits::least * expected && before >= Limits::clearly * left[best];
+  const double within = rms_within(all, positions),
+               within_left = rms_within(reversed(all, static_cast<int>(best)), positions);
+  if (!large &&
+      !(within > 0.0 && chance_of_part(within_left / within, positions) < Limits::sign_by_chance))
     return "";
   const std::string_view name = gimbal_channels.names[best];
   const std::string right = fmt::format("{} = \"-{}\"", name, name);
   return fmt::format(
       "{}: column {}: the sign is wrong (with {} accelerometers and gimbals show Up within {:.2g} "
-      "deg of each other, as it is within {:.2g} deg only). Correct the recording, or say so in "
+      "deg of each other{}, as it is within {:.2g} deg only). Correct the recording, or say so in "
       "the study: [recording] columns = {{ {} }}, with its unit as in the header",
       recording.source.empty() ? "the recording" : recording.source, name, right,
-      left[best] / detail::deg, before / detail::deg, right);
+      (large ? left[best] : within_left) / detail::deg,
+      large ? "" : ", but for a constant in each position", (large ? before : within) / detail::deg,
+      right);
 }
 
 std::string gimbal_off_zero(const mc::Study& study, const Recording& recording) {

@@ -91,7 +91,10 @@ struct GimbalZeroLimits {
   /// large a zero is of no unit as its priors say (6e-7), nor is what leaves so much (3e-7).
   /// Test: GimbalZero.*
   static constexpr double least = 5.0, left = 5.0;
-  static constexpr double clearly = 2.0;       ///< times as much is left by every other gimbal
+  static constexpr double clearly = 2.0;  ///< times as much is left by every other gimbal
+  /// Chance of what a change of sign takes away, if that is of no sign: as of 5 sigma. In six
+  /// positions a quarter may be left. Test: GimbalSign.*
+  static constexpr double sign_by_chance = 6e-7;
   static constexpr std::size_t positions = 3;  ///< fewer fit several guesses
   static constexpr double shown = 0.05;        ///< part of a zero that Up must show, squared, mean
 };
