@@ -49,6 +49,23 @@ bool jumps(const Recording& r, std::size_t first, std::size_t last, double turn)
   return false;
 }
 
+/// Whether the platform is turned in one half of the rows and stands in the other (rows on the way
+/// under the number of the next position): the Earth and drift turn it as fast in both.
+bool turned_in_a_half(const Recording& r, std::size_t first, std::size_t last) {
+  const auto& time = r.find("time")->values;
+  const std::size_t middle = (first + last) / 2;
+  const auto rate = [&](std::size_t from, std::size_t to) -> std::optional<double> {
+    const auto a = measured(r, gimbal_channels, from), b = measured(r, gimbal_channels, to);
+    if (!a || !b || !(time[to] > time[from])) return std::nullopt;
+    const Mat3 turn =
+        local_attitude_shown(r, to, *b) * local_attitude_shown(r, from, *a).transpose();
+    return rotation_vector(turn).norm() / (time[to] - time[from]);
+  };
+  const auto before = rate(first, middle), behind = rate(middle, last);
+  return before && behind &&
+         std::max(*before, *behind) > ClockLimits::steady * std::min(*before, *behind);
+}
+
 /// The first and the last row left out, which may be of the neighbours; empty where one of the two
 /// instruments does not show it.
 std::optional<Rates> rates_in(const Recording& r, RestingRows rest) {
@@ -65,7 +82,8 @@ std::optional<Rates> rates_in(const Recording& r, RestingRows rest) {
   const Mat3 turn =
       local_attitude_shown(r, last, *g1) * local_attitude_shown(r, rest.first, *g0).transpose();
   const double angle = rotation_vector(turn).norm();
-  if (jumps(r, rest.first, last, angle)) return std::nullopt;
+  if (jumps(r, rest.first, last, angle) || turned_in_a_half(r, rest.first, last))
+    return std::nullopt;
   return Rates{angle / seconds, std::atan2(f0->cross(*f1).norm(), f0->dot(*f1)) / seconds};
 }
 

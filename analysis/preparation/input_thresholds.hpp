@@ -132,7 +132,8 @@ struct ClockLimits {
   /// Times the Earth's rate at which Up must turn then, too: a part cos(latitude) of the whole, a
   /// twentieth at 87 deg.
   static constexpr double up_turns = 3.0;
-  static constexpr double alike = 1.5;        ///< factor by which drift may move it from a unit's
+  static constexpr double alike = 1.5;   ///< factor by which drift may move it from a unit's
+  static constexpr double steady = 3.0;  ///< factor between the halves of a rest that it is not
   static constexpr double no_command = 1e-9;  ///< [rad/s], rounding of a text file
 };
 

@@ -11,10 +11,22 @@ namespace {
 /// Columns of three, as bits.
 constexpr unsigned every_column = 7;
 
-/// What the row behind that of a sight shows.
+/// The next row of its position that was measured: rows that are lost behind the first are there
+/// without readings. The number of rows where there is none.
+std::size_t next_row(const Recording& recording, const Sight& s, const ChannelTriple& channels) {
+  const Channel* position = recording.find("position");
+  for (std::size_t row = s.row + 1; row < recording.rows(); ++row) {
+    if (position != nullptr && position->values[row] != position->values[s.row]) break;
+    if (measured(recording, channels, row)) return row;
+  }
+  return recording.rows();
+}
+
+/// What it shows.
 std::optional<Vec3> next_of(const Recording& recording, const Sight& s,
                             const ChannelTriple& channels) {
-  return s.row + 1 < recording.rows() ? measured(recording, channels, s.row + 1) : std::nullopt;
+  const std::size_t row = next_row(recording, s, channels);
+  return row < recording.rows() ? measured(recording, channels, row) : std::nullopt;
 }
 
 /// What the last row before that of a sight shows that was measured.
@@ -75,7 +87,7 @@ bool numbers_early(const Recording& recording, const std::vector<Sight>& wrong,
   return wrong.size() >= fewest_sights && std::ranges::all_of(wrong, [&](Sight s) {
            const auto next = next_of(recording, s, channels);
            if (!next || !reads_as_before(recording, s, *next, channels, every_column)) return false;
-           if (heading != nullptr) s.heading = heading->values[s.row + 1];
+           if (heading != nullptr) s.heading = heading->values[next_row(recording, s, channels)];
            return mismatch(s, *next) < largest_mismatch;
          });
 }

@@ -114,6 +114,17 @@ std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t e
   return turned(0) > largest_mismatch && turned(1) < 0.1 * turned(0) ? first + 1 : first;
 }
 
+/// The row of a dwell's last ones whose heading is its own: the last but one, where the case turns
+/// behind it as to another position and stood before.
+std::size_t row_of_heading(const std::vector<double>& heading, std::size_t first, std::size_t end) {
+  if (first + 2 >= end) return end - 1;
+  const auto turned = [&](std::size_t k) {
+    return std::abs(std::remainder(heading[k] - heading[k - 1], 360.0 * detail::deg));
+  };
+  const bool late = turned(end - 1) > largest_mismatch && turned(end - 2) < 0.1 * turned(end - 1);
+  return late ? end - 2 : end - 1;
+}
+
 }  // namespace
 
 RecordedPlan recorded_plan(const Recording& r) {
@@ -134,7 +145,7 @@ RecordedPlan recorded_plan(const Recording& r) {
       p.sample = own;
     const double sample = p.sample.value_or(plan.sample);
     p.length = in_whole_samples(time->values[end - 1] - time->values[dwell] + sample, sample);
-    if (heading) p.heading = heading->values[end - 1];
+    if (heading) p.heading = heading->values[row_of_heading(heading->values, dwell, end)];
     const auto shown = cardinal_axes(r, shows, p.heading.value_or(0.0));
     if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
     plan.north = plan.north && shown;

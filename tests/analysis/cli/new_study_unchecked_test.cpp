@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "tests/support/log_edits.hpp"
 #include "tests/support/program.hpp"
@@ -36,6 +37,32 @@ TEST(NewStudy, RestsThatAreTooShortForACardShowTheNoiseToo) {
   EXPECT_NEAR(number_after("accelerometer_noise"), 250.0, 4.0 * 0.08 * 250.0) << study;
   EXPECT_NEAR(number_after("gimbal_noise"), 45.0, 4.0 * 0.08 * 45.0) << study;
   EXPECT_TRUE(has(driftscope("look " + own).out, "samples scatter about their slow course"));
+}
+
+/// The attitudes and headings of the plan in a study file.
+std::string plan_of(const std::string& study) {
+  std::istringstream lines(study);
+  std::string out;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("axes ") || line.starts_with("case_heading ")) out += line + "\n";
+  return out;
+}
+
+TEST(NewStudy, ANumberThatChangesARowLateLeavesThePlanAsItWas) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  const std::string late = folder.write(
+      "late.csv", with_column(text_of(own), "position",
+                              [before = std::string()](const std::string& cell) mutable {
+                                std::string was = std::exchange(before, cell);
+                                return was.empty() ? cell : was;
+                              }));
+  ASSERT_EQ(driftscope("new diagnose " + own + " -o " + folder.file("right.toml")).code, 0);
+  ASSERT_EQ(driftscope("new diagnose " + late + " -o " + folder.file("late.toml")).code, 0);
+  const std::string right = plan_of(text_of(folder.file("right.toml")));
+  EXPECT_TRUE(has(right, "case_heading = \"45 deg\"")) << right;
+  EXPECT_EQ(plan_of(text_of(folder.file("late.toml"))), right);
 }
 
 /// The short names that a laboratory has for gimbals, the clock as its instrument writes it.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "analysis/preparation/prepare.hpp"
@@ -68,6 +69,34 @@ TEST(ClockUnit, LabelsThatComeLateAreNoOtherUnit) {
         c.values.resize(r.rows());
       }
     EXPECT_EQ(other_unit_of_time(wrong), "") << late;
+  }
+}
+
+/// Its first rows are on the way from the position before, turned by an operator.
+TEST(ClockUnit, RowsOnTheWayUnderTheNextNumberAreNoOtherUnit) {
+  const mc::Study s = study();
+  Recording r = test::simulated(s);
+  const std::vector<double> position = test::channel(r, "position");
+  constexpr std::size_t way = 5;
+  for (std::size_t first = 1; first + way < position.size(); ++first) {
+    if (position[first] == position[first - 1]) continue;
+    for (Channel& c : r.channels) {
+      const bool angle = c.name.starts_with("gimbal_");
+      if (!angle && !c.name.starts_with("acc_")) continue;
+      const double from = c.values[first - 1];
+      double turn = c.values[first + way] - from;
+      if (angle) turn = std::remainder(turn, 2.0 * std::numbers::pi);
+      for (std::size_t k = 0; k < way; ++k)
+        c.values[first + k] =
+            from + turn * static_cast<double>(k + 1) / static_cast<double>(way + 1);
+    }
+  }
+  EXPECT_EQ(other_unit_of_time(r), "");
+  try {
+    prepare(s, {r});
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(says(error.what(), "the first 5 rows of 5 positions")) << error.what();
   }
 }
 
