@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "core/config/nearest.hpp"
 #include "core/recording/own/like_temperature.hpp"
@@ -22,6 +24,17 @@ Role role_of(std::string_view channel, RecordingKind kind) {
   return is_covariate(channel, kind) ? Role::covariate : Role::sensor;
 }
 
+constexpr std::array<std::string_view, 10> parts_of_a_degree{
+    "min", "'", "\u2032", "arcmin", "minutes", "s", "sec", "\u2033", "arcsec", "seconds"};
+
+/// A header without its unit, and the unit, that of an ending too: "outer min".
+std::pair<std::string, std::string> name_and_unit(const HeaderCell& cell) {
+  if (cell.unit) return {cell.name, *cell.unit};
+  const auto last = cell.name.find_last_of(" _");
+  if (last == std::string::npos) return {};
+  return {cell.name.substr(0, last), cell.name.substr(last + 1)};
+}
+
 std::string listed(const std::vector<HeaderCell>& header) {
   constexpr std::size_t most = 20;
   std::vector<std::string> names;
@@ -37,6 +50,7 @@ class Assignment {
       : header_(header), format_(format), kind_(kind), problems_(problems) {}
 
   std::vector<ColumnUse> assign() {
+    if (report_split_angles()) return {};
     require_own_names();
     for (const HeaderCell& cell : header_) uses_.push_back(use_of(cell));
     report_contradictions();
@@ -52,6 +66,37 @@ class Assignment {
     const auto it = std::ranges::find_if(
         format_.columns, [&](const MappedColumn& m) { return is_called(cell, m.own); });
     return it == format_.columns.end() ? nullptr : &*it;
+  }
+
+  bool is_left_out(const HeaderCell& cell) const {
+    return std::ranges::any_of(format_.ignore,
+                               [&](const std::string& own) { return is_called(cell, own); });
+  }
+
+  /// An angle in three columns, degrees, minutes and seconds: the degrees alone would be read.
+  bool report_split_angles() {
+    std::map<std::string, std::vector<const HeaderCell*>> degrees, parts;  // by the name of all
+    for (const HeaderCell& cell : header_) {
+      const auto [name, unit] = name_and_unit(cell);
+      const bool part = std::ranges::find(parts_of_a_degree, unit) != parts_of_a_degree.end();
+      if (name.empty() || is_left_out(cell)) continue;
+      if (part)
+        parts[name].push_back(&cell);
+      else if (const auto known = parse_recording_unit(unit); known && same_unit(*known, unit::deg))
+        degrees[name].push_back(&cell);
+    }
+    std::vector<std::string> split;
+    for (const auto& [name, cells] : degrees)
+      if (parts[name].size() == 2) {
+        split.push_back(in_quotes(cells.front()->whole));
+        for (const HeaderCell* cell : parts[name]) split.push_back(in_quotes(cell->whole));
+      }
+    if (split.empty()) return false;
+    problems_.add(fmt::format("{}", fmt::join(split, ", ")),
+                  "angles in degrees, minutes and seconds", "one column for each angle",
+                  "Write them in decimal degrees; or, if the others are something else, leave them "
+                  "out with ignore in [recording]");
+    return true;
   }
 
   void require(const std::string& own, const std::string& key) {
@@ -100,7 +145,7 @@ class Assignment {
     const auto called = [&](const std::string& own) { return is_called(cell, own); };
     if (called(format_.counter)) return {Role::counter, "counter", {}, 1.0};
     if (called(format_.date)) return {Role::date, "date", {}, 1.0};
-    if (std::ranges::any_of(format_.ignore, called)) return {Role::ignored, cell.whole, {}, 1.0};
+    if (is_left_out(cell)) return {Role::ignored, cell.whole, {}, 1.0};
     if (const MappedColumn* m = mapping(cell)) return mapped(cell, *m);
     if (is_channel(cell.name)) return {role_of(cell.name, kind_), cell.name, cell.unit, 1.0};
     return {Role::covariate, "", cell.unit, 1.0};  // its name is settled when all are known

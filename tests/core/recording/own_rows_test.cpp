@@ -125,5 +125,37 @@ TEST(OwnRows, BarsMayDivideTheCells) {
   EXPECT_EQ(r.find("acc_z")->values, (std::vector<double>{1.0, 1.0}));
 }
 
+/// What is said of a platform's log with these columns of angles.
+std::string said_of_angles(const std::string& header, const std::string& cells) {
+  const Folder folder;
+  const std::string text = "time [s];position;acc_x [g];acc_y [g];acc_z [g];" + header +
+                           "\n1;1;0;0;1;" + cells + "\n2;1;0;0;1;" + cells + "\n";
+  const std::string path = folder.write("own.csv", text);
+  try {
+    read_recording(path, guess_file(path).format, RecordingKind::platform, gravity);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(OwnRows, AnglesInDegreesMinutesAndSecondsAreRefusedWithWhatToWrite) {
+  for (const std::string names : {"outer deg;outer min;outer sec", "outer_deg;outer_min;outer_sec",
+                                  "outer [deg];outer [arcmin];outer [arcsec]"}) {
+    const std::string said = said_of_angles(names, "-89;57;40.7");
+    EXPECT_NE(said.find("angles in degrees, minutes and seconds"), std::string::npos) << said;
+    EXPECT_NE(said.find("Write them in decimal degrees"), std::string::npos) << said;
+  }
+  EXPECT_EQ(said_of_angles("T deg;T min;T max", "1;2;3"), "")
+      << "least and most are no parts of it";
+  const std::string names = "gimbal_outer [deg];gimbal_middle [deg];gimbal_inner [deg]";
+  for (const std::string cell : {"-89\u00B057'40.7''", "-89:57:40.7", "-89 57 40.7"})
+    EXPECT_NE(said_of_angles(names, cell + ";1;2").find("one number, in decimal degrees"),
+              std::string::npos)
+        << said_of_angles(names, cell + ";1;2");
+  EXPECT_NE(said_of_angles(names, "1 234.5;1;2").find("marks between thousands"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace drift::own_rows_test
