@@ -101,6 +101,23 @@ bool is_row_of_numbers(std::string_view line, char delimiter) {
   return numbers >= 2 && 2 * numbers >= filled;
 }
 
+/// That of a header above its first row: what divides the row, where it divides the header into as
+/// many cells ("t, s;x, g" above "1,5;2,5").
+char delimiter_above(const std::vector<Line>& lines, std::size_t header,
+                     const RecordingFormat& format) {
+  const std::string& text = lines[header].text;
+  const auto row = std::find_if(
+      lines.begin() + static_cast<std::ptrdiff_t>(header) + 1, lines.end(), [&](const Line& line) {
+        return is_row_of_numbers(line.text, row_delimiter(line.text, format));
+      });
+  const char best = delimiter_of(text, format);
+  if (row == lines.end()) return best;
+  const char of_row = row_delimiter(row->text, format);
+  const auto marks = std::ranges::count(text, of_row);
+  return of_row != ' ' && marks > 0 && marks == std::ranges::count(row->text, of_row) ? of_row
+                                                                                      : best;
+}
+
 std::string_view without_brackets(std::string_view cell) {
   if (cell.size() >= 2 &&
       ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
@@ -203,7 +220,7 @@ CsvLayout find_layout(const std::string& path, const RecordingFormat& format, Re
   const std::size_t at = find_header(lines, format, kind);
   layout.header_line = lines[at].number;
   layout.above = at;
-  layout.delimiter = delimiter_of(lines[at].text, format);
+  layout.delimiter = delimiter_above(lines, at, format);
   layout.header = header_cells(lines[at].text, layout.delimiter);
   const std::size_t below = text_lines_below(lines, at, layout.delimiter);
   if (below > 0) layout.last_text = lines[at + below].number;

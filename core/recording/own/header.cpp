@@ -29,7 +29,7 @@ bool is_in_unit(std::string_view name, std::string_view unit) {
   return !symbol && parse_recording_unit(std::string(word) + "/" + std::string(unit));
 }
 
-/// "Zeit / s", "Zeit in s" and "t/s" are the name and its unit.
+/// "Zeit / s", "Zeit in s", "Zeit, s" and "t/s" are the name and its unit.
 void split_off_unit(HeaderCell& cell) {
   const auto split_at = [&](std::size_t end, std::size_t between) {
     const std::string_view name = trimmed(std::string_view(cell.name).substr(0, end)),
@@ -40,7 +40,7 @@ void split_off_unit(HeaderCell& cell) {
     cell.name = std::string(name);
     return true;
   };
-  for (const std::string_view between : {" / ", " in "})
+  for (const std::string_view between : {" / ", " in ", ", "})
     if (const auto end = cell.name.rfind(between);
         end != std::string::npos && split_at(end, between.size()))
       return;

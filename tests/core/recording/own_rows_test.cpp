@@ -125,6 +125,18 @@ TEST(OwnRows, BarsMayDivideTheCells) {
   EXPECT_EQ(r.find("acc_z")->values, (std::vector<double>{1.0, 1.0}));
 }
 
+TEST(OwnRows, CommasOfTheHeaderDivideNothingWhereTheRowsHaveOthers) {
+  const Folder folder;
+  const std::string path =
+      folder.write("r.csv",
+                   "Time, s;Acc X, g;Acc Y, g;Acc Z, g;Gyro X, deg/s;Gyro Y, deg/s;Gyro Z, deg/s\n"
+                   "1,5;0;0;1;0,1;0,2;0,3\n2,5;0;0;1;0,1;0,2;0,3\n");
+  const GuessedFile file = guess_file(path);
+  const Recording r = read_recording(path, file.format, RecordingKind::strapdown, gravity);
+  EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.5, 2.5}));
+  EXPECT_NEAR(r.find("gyro_z")->values[1], 0.3 * detail::deg, 1e-15);
+}
+
 /// What is said of a platform's log with these columns of angles.
 std::string said_of_angles(const std::string& header, const std::string& cells) {
   const Folder folder;
