@@ -163,7 +163,9 @@ void CsvRows::read_row(std::string_view line) {
   }
   const auto filled = std::ranges::count_if(cells, [](auto cell) { return !cell.empty(); });
   if (filled == 0 && !format_.rate) return;  // delimiters alone: a spreadsheet's empty row
-  const bool text = filled < std::ssize(row_) && std::ranges::none_of(cells, begins_like_number);
+  const bool text =
+      (filled < std::ssize(row_) && std::ranges::none_of(cells, begins_like_number)) ||
+      names_no_time(cells);
   if (text && (footer_lines_ > 0 || pending_.empty())) {
     if (footer_lines_++ == 0) footer_line_ = lines_.number();
   } else {
@@ -201,6 +203,17 @@ void CsvRows::read_row(std::string_view line) {
   reserve();
   for (std::size_t i = 0; i < n; ++i) raw_.columns[i].values.push_back(row_[i]);
   raw_.lines.push_back(lines_.number());
+}
+
+/// Whether a word stands where the time should, "Mean" before the means of all columns. More lines
+/// than a summary has are rows whose time cannot be read.
+bool CsvRows::names_no_time(const std::vector<std::string_view>& cells) const {
+  constexpr std::size_t most = 20;
+  const auto time = std::ranges::find(uses_, Role::time, &ColumnUse::role);
+  const auto at = static_cast<std::size_t>(time - uses_.begin());
+  return !raw_.lines.empty() && footer_lines_ < most && at < std::min(cells.size(), uses_.size()) &&
+         !cells[at].empty() && !begins_like_number(cells[at]) &&
+         parse_cell(cells[at], DecimalMark::automatic).kind == ParsedCell::Kind::text;
 }
 
 /// Whether the last cell of a line without line end may lack its end: it is kept only if it looks

@@ -38,6 +38,7 @@ class CsvRows {
   std::optional<Complaint> read_time(std::size_t i, std::string_view cell);
   std::optional<Complaint> read_position(std::size_t i, std::string_view cell);
   bool repeats_header(const std::vector<std::string_view>& cells) const;
+  bool names_no_time(const std::vector<std::string_view>& cells) const;
   bool may_be_cut(std::string_view cell) const;
   void note_end(std::string_view cell);
   void note(std::string remark);

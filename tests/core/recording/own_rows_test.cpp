@@ -52,6 +52,25 @@ TEST(OwnRows, EmptyRowsAndSummariesOfASpreadsheetAreNoRows) {
   }));
 }
 
+TEST(OwnRows, ASummaryWithNumbersBelowTheLastRowIsNone) {
+  const Folder folder;
+  const std::string rows = "time [s]," + imu_header + "1" + still + "2" + still;
+  for (const std::string& summary :
+       {std::string("Mean,0.1,0.2,0.3,0,0,1\n"), "Mean,,0.2,0.3,0,0,1\nMax" + still,
+        std::string("\nSummary\nrows,2\nmean,0.1\n")}) {
+    const Recording r =
+        read_recording(folder.write("r.csv", rows + summary), RecordingKind::strapdown, gravity);
+    EXPECT_EQ(r.find("time")->values, (std::vector<double>{1.0, 2.0})) << summary;
+    EXPECT_TRUE(std::ranges::any_of(r.remarks.texts(), [](const std::string& s) {
+      return s.find("left out") != std::string::npos;
+    })) << summary;
+    EXPECT_THROW(read_recording(folder.write("b.csv", rows + summary + "3" + still),
+                                RecordingKind::strapdown, gravity),
+                 InputError)
+        << "between rows it is not passed over";
+  }
+}
+
 TEST(OwnRows, AHeaderOfSeveralLinesHasNamesUnitsAndWords) {
   const Folder folder;
   const std::string names = "Time,Accelerometer X,Accelerometer Y,Accelerometer Z\n",
