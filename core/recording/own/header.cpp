@@ -20,13 +20,17 @@ std::string bare(std::string_view name) {
   return out;
 }
 
-/// Whether a slash stands within a unit ("deg/h", "omega deg/h") and not between a quantity and its
-/// unit: "T/K" is the symbol of a quantity in K, and no column is called by a unit alone.
+/// Whether a slash stands within a unit ("deg/h", "omega deg/h", "v_m/s") and not between a
+/// quantity and its unit: "T/K" is the symbol of a quantity in K, and no column is called by a unit
+/// alone.
 bool is_in_unit(std::string_view name, std::string_view unit) {
-  const auto blank = name.rfind(' ');
-  const bool symbol = name.size() == 1;
-  const std::string_view word = blank == std::string_view::npos ? name : name.substr(blank + 1);
-  return !symbol && parse_recording_unit(std::string(word) + "/" + std::string(unit));
+  const auto before = name.find_last_of(" _.-");
+  const std::string_view word = before == std::string_view::npos ? name : name.substr(before + 1);
+  if (name.size() == 1 || !parse_recording_unit(std::string(word) + "/" + std::string(unit)))
+    return false;
+  // Of one letter behind a name ("phi_m/deg") it is one where something is measured by time.
+  const Dimension by = parse_recording_unit(unit)->dim;
+  return word.size() > 1 || by == "s"_unit.dim || by == "s^2"_unit.dim;
 }
 
 /// "Zeit / s", "Zeit in s", "Zeit, s" and "t/s" are the name and its unit.

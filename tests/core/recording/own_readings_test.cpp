@@ -88,9 +88,12 @@ TEST(OwnReadings, AUnitStandsBehindASlashWithoutBlanksToo) {
   EXPECT_EQ(channels_of("t/s;gyro_x/(deg/h)", "1;3", "2;4"), "times gyro_xdeg/h " + acc);
   EXPECT_EQ(channels_of("t/s;T/[K]", "1;294,1", "2;294,2"), "times temperatureK " + acc);
   // A slash within a unit, or between words, divides no name from its unit.
-  for (const char* header : {"omega deg/h", "deg/h", "\u00B0/h", "an/aus", "v m/s", "/s"})
+  for (const char* header : {"omega deg/h", "deg/h", "\u00B0/h", "an/aus", "v m/s", "v_m/s",
+                             "gx_deg/s", "a_m/s^2", "/s"})
     EXPECT_FALSE(header_cell(header).unit) << header << header_cell(header).name;
   EXPECT_EQ(header_cell("a_x/(m/s^2)").name, "a_x");
+  EXPECT_EQ(header_cell("a_x/m/s^2").unit, "m/s^2");
+  EXPECT_EQ(header_cell("Phi_m/deg").unit, "deg");
 }
 
 TEST(OwnReadings, AHeadingIsNamedWithoutAColumnOfPositions) {
