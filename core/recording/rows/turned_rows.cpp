@@ -16,13 +16,13 @@ bool is_none(double position) {
 }
 
 /// Rows [first, last) of one number, or of none.
-struct Stretch {
+struct TurnedStretch {
   std::size_t first = 0, last = 0;
   bool none = false;
 };
 
-std::vector<Stretch> stretches_of(const std::vector<double>& position) {
-  std::vector<Stretch> all;
+std::vector<TurnedStretch> stretches_of(const std::vector<double>& position) {
+  std::vector<TurnedStretch> all;
   for (std::size_t k = 0; k < position.size(); ++k) {
     const bool none = is_none(position[k]);
     const bool same = k > 0 && (none ? all.back().none : position[k] == position[k - 1]);
@@ -35,10 +35,10 @@ std::vector<Stretch> stretches_of(const std::vector<double>& position) {
 }
 
 /// Whether rows without a number are there, and lie where a platform is turned.
-bool are_turns(const std::vector<double>& position, const std::vector<Stretch>& all) {
+bool are_turns(const std::vector<double>& position, const std::vector<TurnedStretch>& all) {
   bool between = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Stretch& s = all[i];
+    const TurnedStretch& s = all[i];
     if (!s.none && s.last - s.first < CountLimits::fewest_rows) return false;
     if (!s.none || i == 0 || i + 1 == all.size()) continue;
     if (position[s.first - 1] == position[s.last]) return false;
@@ -68,14 +68,14 @@ void take_turned_rows(Recording& r) {
   const auto channel = std::ranges::find(r.channels, "position", &Channel::name);
   if (channel == r.channels.end()) return;
   std::vector<double>& position = channel->values;
-  const std::vector<Stretch> all = stretches_of(position);
+  const std::vector<TurnedStretch> all = stretches_of(position);
   if (!are_turns(position, all)) return;
   const Channel* phase = r.find("phase");
   std::vector<bool> out(position.size(), false);
   std::vector<double> slews(position.size(), 0.0);
   std::size_t left_out = 0, slewing = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Stretch& s = all[i];
+    const TurnedStretch& s = all[i];
     if (!s.none) continue;
     std::size_t first = s.last, last = s.last;  // of the rows that are slewed
     for (std::size_t k = s.first; k < s.last; ++k)
