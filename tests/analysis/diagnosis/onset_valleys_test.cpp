@@ -46,7 +46,6 @@ TEST(Diagnose, AnIntervalOfAnOnsetHoldsTheOtherValleysThatAreProbable) {
     const auto& parameters = d.causes.front().parameters;
     const auto onset = std::ranges::find(parameters, "dD_t0", &search::CauseParameter::key);
     ASSERT_NE(onset, parameters.end());
-    fprintf(stderr, "%g +- %g  %g %g\n", onset->value, onset->sigma, onset->low(), onset->high());
     EXPECT_LE(onset->low(), test.onset / 3600.0);
     EXPECT_GE(onset->high(), test.onset / 3600.0);
     two += onset->value > 4.0;
