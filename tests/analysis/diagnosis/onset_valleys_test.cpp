@@ -40,6 +40,7 @@ TEST(Diagnose, AnIntervalOfAnOnsetHoldsTheOtherValleysThatAreProbable) {
     DiagnoseOptions options;
     options.folds = FoldMethod::linear;
     options.whiteness_draws = 0;
+    options.profiles = Profiles::of_the_causes;
     const Diagnosis d = diagnose(base_filter(Coupling::eq6),
                                  {test.timeline, test.readout, measured}, {}, {}, options);
     ASSERT_EQ(d.verdict, Verdict::named) << report::sentence(d);
