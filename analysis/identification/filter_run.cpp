@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/check.hpp"
 #include "core/estimate/closure/closure_posterior.hpp"
 #include "core/estimate/starts.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::identification {
 namespace {
@@ -21,7 +24,6 @@ void fit_by_batch(FilterRun& run, const FilterSpec& filter, const MeasuredTest& 
                   const Theta& start) {
   run.batch = fit_batch(filter, test, start);
   run.memory_doubt = memory_doubt(filter, run.batch, test.timeline);
-  run.batch.estimate = over_closure(filter, test, run.batch);
 }
 
 }  // namespace
@@ -38,6 +40,32 @@ FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timel
   for (EstimateResult* result : {&run.ekf, &run.batch.estimate})
     result->noise_at_most = study.readout.accelerometers_rounded || study.readout.gimbals_rounded;
   return run;
+}
+
+void take_over_closure(const mc::Study& study, const MeasuredTest& test,
+                       std::vector<FilterRun>& runs, int threads) {
+  std::vector<std::vector<std::size_t>> alike;  // runs, by the point where they ended
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (runs[k].batch.estimate.find(closure_param) == nullptr) continue;
+    const auto group = std::ranges::find_if(alike, [&](const std::vector<std::size_t>& g) {
+      const FilterRun& first = runs[g.front()];
+      return first.filter == runs[k].filter && ended_at_one_point(first.batch, runs[k].batch);
+    });
+    if (group == alike.end())
+      alike.push_back({k});
+    else
+      group->push_back(k);
+  }
+  const std::vector<EstimateResult> over = mc::run_campaign(
+      alike.size(),
+      [&](std::size_t g) {
+        const FilterRun& first = runs[alike[g].front()];
+        return over_closure(study.filters[first.filter], test, first.batch);
+      },
+      threads);
+  for (std::size_t g = 0; g < alike.size(); ++g)
+    for (const std::size_t k : alike[g])
+      runs[k].batch.estimate = with_moments_of(over[g], runs[k].batch);
 }
 
 void require_ok(const OdeResult& ode, std::uint64_t run) {
@@ -74,7 +102,9 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.start = job.start;
   run.ekf = ekf.result();
   run.history = ekf.history();
-  fit_by_batch(run, filter, {timeline, study.readout, sim.measured}, start);
+  const MeasuredTest test{timeline, study.readout, sim.measured};
+  fit_by_batch(run, filter, test, start);
+  run.batch.estimate = over_closure(filter, test, run.batch);
   return run;
 }
 

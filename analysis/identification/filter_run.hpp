@@ -10,12 +10,19 @@ struct Job {
   std::size_t filter, start;
 };
 
-/// EKF and batch fit of what was measured.
+/// EKF and batch fit of what was measured. Where lambda is estimated the fit is the most probable
+/// point yet, which take_over_closure() turns into the estimate.
 FilterRun estimate(const mc::Study& study, const Job& job, const Timeline& timeline,
                    const Measurements& measured);
 
-/// The same in the loop: the test is simulated position by position, and at the start of each the
-/// loop is given the filter's running estimate of the misalignments.
+/// Takes batch fits of one test, each the most probable point, over lambda's posterior
+/// (over_closure()): all fits of a filter that ended at one point at once, as the first of them.
+void take_over_closure(const mc::Study& study, const MeasuredTest& test,
+                       std::vector<FilterRun>& runs, int threads);
+
+/// Estimates in the loop: the test is simulated position by position, and at the start of each the
+/// loop is given the filter's running estimate of the misalignments. The batch fit is over
+/// lambda's posterior, as no other start has the same test.
 FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline timeline,
                                const TruthDraw& draw, std::uint64_t run_number);
 

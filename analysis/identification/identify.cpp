@@ -120,8 +120,21 @@ void run_jobs(const mc::Study& study, Identification& id, int threads, const Pro
         return run;
       },
       threads);
-  if (!id.test_of_each_start)
-    try_prior_means(study, id, [&](std::size_t f, std::size_t start) { return task({f, start}); });
+}
+
+/// All filters and starts of one test.
+void estimate_all(const mc::Study& study, const MeasuredTest& test, Identification& id, int threads,
+                  const Progress& progress) {
+  const auto task = [&](const Job& job) {
+    return estimate(study, job, test.timeline, test.measured);
+  };
+  run_jobs(study, id, threads, progress, task);
+  take_over_closure(study, test, id.runs, threads);
+  try_prior_means(study, id, [&](std::size_t filter, std::size_t start) {
+    std::vector<FilterRun> one{task({filter, start})};
+    take_over_closure(study, test, one, threads);
+    return std::move(one.front());
+  });
   id.summaries = summarise(study, id);
 }
 
@@ -196,6 +209,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
     run_jobs(study, id, threads, progress, [&](const Job& job) {
       return estimate_in_the_loop(study, job, timeline, *id.truth, run);
     });
+    id.summaries = summarise(study, id);
     return id;
   }
   const Simulation sim = Simulator(study.truth, study.readout).run(timeline, *id.truth, seed, run);
@@ -203,8 +217,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   id.truth->theta = sim.theta_end;  // what an estimate at the end is to be compared with
   set_lambda(study.truth, id.truth->theta);
   id.recordings = {make_recording(timeline, sim.measured, study.readout)};
-  run_jobs(study, id, threads, progress,
-           [&](const Job& job) { return estimate(study, job, timeline, sim.measured); });
+  estimate_all(study, {timeline, study.readout, sim.measured}, id, threads, progress);
   return id;
 }
 
@@ -226,9 +239,8 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   const preparation::RecordedTest test = preparation::recorded_test(ready.study, ready.recordings);
   id.samples = samples_of(test.timeline, ready.study.readout, test.ends);
   id.excitation = excitation_of(test.timeline);
-  run_jobs(ready.study, id, threads, progress, [&](const Job& job) {
-    return estimate(ready.study, job, test.timeline, test.measured);
-  });
+  estimate_all(ready.study, {test.timeline, ready.study.readout, test.measured}, id, threads,
+               progress);
   consider_field(ready.study, test, id);
   id.spikes = without_spikes(test.measured, test.timeline, ready.study.readout,
                              id.counted(id.summaries.front()).batch)

@@ -186,4 +186,32 @@ EstimateResult over_closure(const FilterSpec& filter, const MeasuredTest& test,
   return out;
 }
 
+bool ended_at_one_point(const BatchResult& a, const BatchResult& b) {
+  const auto ok = [](const BatchResult& f) { return f.estimate.status == EstimateStatus::ok; };
+  const auto same_samples = [](const Mat3X& p, const Mat3X& q) {
+    return p.cols() == q.cols() && (p.array().isFinite() == q.array().isFinite()).all();
+  };
+  const std::vector<ParameterEstimate>&p = a.estimate.parameters, &q = b.estimate.parameters;
+  if (!ok(a) || !ok(b) || p.size() != q.size() ||
+      a.information_root.cols() != static_cast<Eigen::Index>(p.size()) ||
+      !same_samples(a.acc_residual, b.acc_residual) ||
+      !same_samples(a.gimbal_residual, b.gimbal_residual))
+    return false;
+  VecX apart(a.information_root.cols());
+  for (std::size_t k = 0; k < p.size(); ++k)
+    apart[static_cast<Eigen::Index>(k)] = (p[k].value - q[k].value) / p[k].prior_sigma;
+  const double sigmas = std::hypot((a.information_root * apart).norm(), apart.norm());
+  return sigmas <= 2.0 * BatchOptions{}.tolerance;
+}
+
+EstimateResult with_moments_of(const EstimateResult& over, const BatchResult& fit) {
+  EstimateResult out = fit.estimate;
+  out.covariance = over.covariance;
+  for (std::size_t k = 0; k < out.parameters.size(); ++k) {
+    out.parameters[k].value = over.parameters[k].value;
+    out.parameters[k].sigma = over.parameters[k].sigma;
+  }
+  return out;
+}
+
 }  // namespace drift

@@ -18,4 +18,13 @@ namespace drift {
 EstimateResult over_closure(const FilterSpec& filter, const MeasuredTest& test,
                             const BatchResult& fit);
 
+/// Whether two fits of one filter and one test ended at one point, as far as a fit tells: both are
+/// whole and converged with the same samples, and no further apart than two that stand still
+/// within BatchOptions::tolerance of it. over_closure() makes the same of both then.
+bool ended_at_one_point(const BatchResult& a, const BatchResult& b);
+
+/// The estimate of a fit by the moments that over_closure() made of another one, which
+/// ended_at_one_point() with it.
+EstimateResult with_moments_of(const EstimateResult& over, const BatchResult& fit);
+
 }  // namespace drift

@@ -133,5 +133,31 @@ TEST(ClosurePosterior, AFilterWithoutLambdaIsLeftAsItIs) {
     EXPECT_EQ(same.parameters[k].value, fit.estimate.parameters[k].value);
 }
 
+TEST(ClosurePosterior, IsOneForFitsThatEndedAtOnePoint) {
+  const Scene s;
+  Simulation sim = s.simulated(3);
+  const MeasuredTest test{s.timeline, s.readout, sim.measured};
+  Theta other = make_layout(s.filter).theta;
+  constexpr auto drift = TermLibrary::index("D_F_x");
+  other[drift] += s.filter.priors[drift].b;
+  const BatchResult a = fit_batch(s.filter, test, make_layout(s.filter).theta);
+  const BatchResult b = fit_batch(s.filter, test, other);
+  ASSERT_TRUE(ended_at_one_point(a, b));
+  const EstimateResult taken = with_moments_of(over_closure(s.filter, test, a), b);
+  const EstimateResult own = over_closure(s.filter, test, b);
+  EXPECT_EQ(taken.parameters[0].start, b.estimate.parameters[0].start);
+  for (std::size_t k = 0; k < own.parameters.size(); ++k) {
+    const ParameterEstimate &p = taken.parameters[k], &q = own.parameters[k];
+    // The points of lambda lie as far apart as the fits do, 2e-4 sigma at most.
+    EXPECT_NEAR(p.value, q.value, 1e-3 * q.sigma) << k;
+    EXPECT_NEAR(p.sigma, q.sigma, 1e-3 * q.sigma) << k;
+  }
+  BatchResult off = b;
+  off.estimate.parameters[0].value += 3e-4 * a.estimate.parameters[0].sigma;
+  EXPECT_FALSE(ended_at_one_point(a, off));
+  sim.measured.acc(1, 4) = std::nan("");
+  EXPECT_FALSE(ended_at_one_point(a, fit_batch(s.filter, test, other)));
+}
+
 }  // namespace
 }  // namespace drift::closure_posterior_test
