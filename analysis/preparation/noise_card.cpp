@@ -21,25 +21,30 @@ constexpr double most_jitter = 0.2;          // rms, in intervals
 constexpr double isolated_by_chance = 1e-3;  // that any sample of a channel is taken for none
 constexpr int lines_per_decade = 20;
 
-double usual_step(const std::vector<double>& time, const std::vector<RestingRows>& rests) {
+/// Upper median of the distances of rows in a rest; 0 of a single row.
+double usual_step(const std::vector<double>& time, const RestingRows& rest) {
   std::vector<double> steps;
-  for (const RestingRows& r : rests)
-    for (std::size_t k = r.first + 1; k <= r.last; ++k) steps.push_back(time[k] - time[k - 1]);
+  for (std::size_t k = rest.first + 1; k <= rest.last; ++k) steps.push_back(time[k] - time[k - 1]);
   return steps.empty() ? 0.0 : stats::upper_median(std::move(steps));
 }
 
-/// The parts of the rests in which every row follows the one before at the usual distance.
+/// The parts of the rests in which every row follows the one before at the distance that is usual
+/// in that rest.
 struct Even {
   std::vector<RestingRows> parts;
   double jitter = 0.0;  ///< rms, in intervals
   std::size_t left_out = 0;
 };
 
-Even evenly_spaced(const std::vector<double>& time, const std::vector<RestingRows>& rests,
-                   double interval) {
+std::size_t rows_of(const RestingRows& part) {
+  return part.last - part.first + 1;
+}
+
+Even evenly_spaced(const std::vector<double>& time, const std::vector<RestingRows>& rests) {
   Even even;
   double squares = 0.0, steps = 0.0;
-  for (const RestingRows& r : rests)
+  for (const RestingRows& r : rests) {
+    const double interval = usual_step(time, r);
     for (std::size_t first = r.first, last = first; first <= r.last; first = ++last) {
       for (; last < r.last; ++last) {
         const double off = (time[last + 1] - time[last]) / interval - 1.0;
@@ -52,8 +57,49 @@ Even evenly_spaced(const std::vector<double>& time, const std::vector<RestingRow
       else
         even.left_out += last - first + 1;
     }
+  }
   if (steps > 0.0) even.jitter = std::sqrt(squares / steps);
   return even;
+}
+
+/// Positions may have a sample each, and what is averaged over so many samples is then over other
+/// times: of the spacings that the parts have, the one with most rows. Returns how many rows the
+/// others have, which are taken out.
+///
+/// Two parts have one spacing where their own differ by no more than what their jitter may do
+/// (three sigma), and by what moves no variance by more than the least that its own chance is: of
+/// n samples a variance is known to sqrt(2/n), and one that falls with the square of the time is
+/// off by twice the part that the time is.
+std::size_t keep_one_spacing(const std::vector<double>& time, Even& even) {
+  if (even.parts.empty()) return 0;
+  const auto spacing = [&](const RestingRows& p) {
+    return (time[p.last] - time[p.first]) / static_cast<double>(p.last - p.first);
+  };
+  std::size_t all = 0;
+  for (const RestingRows& p : even.parts) all += rows_of(p);
+  const auto differ = [&](const RestingRows& a, const RestingRows& b) {
+    const auto steps = static_cast<double>(std::min(rows_of(a), rows_of(b)) - 1);
+    return spacing(b) / spacing(a) - 1.0 >
+           std::sqrt(0.5 / static_cast<double>(all)) + 3.0 * even.jitter / std::sqrt(steps);
+  };
+  std::vector<RestingRows> parts = even.parts;
+  std::ranges::sort(parts, {}, spacing);
+  std::size_t most = 0;
+  std::pair<double, double> kept{};
+  for (std::size_t first = 0, end = 0; first < parts.size(); first = end) {
+    std::size_t rows = 0;
+    for (end = first; end == first || (end < parts.size() && !differ(parts[end - 1], parts[end]));
+         ++end)
+      rows += rows_of(parts[end]);
+    if (rows <= most) continue;
+    most = rows;
+    kept = {spacing(parts[first]), spacing(parts[end - 1])};
+  }
+  std::erase_if(even.parts, [&](const RestingRows& p) {
+    return spacing(p) < kept.first || spacing(p) > kept.second;
+  });
+  even.left_out += all - most;
+  return all - most;
 }
 
 /// The measured samples of a channel in even parts: a sample that is missing ends a stretch.
@@ -136,13 +182,12 @@ NoiseCard noise_card(const Recording& recording, RecordingKind kind,
   card.kind = kind;
   const Channel* time = recording.find("time");
   if (time == nullptr) return card;
-  card.interval = usual_step(time->values, rests);
-  if (!(card.interval > 0.0)) return card;
-  const Even even = evenly_spaced(time->values, rests, card.interval);
+  Even even = evenly_spaced(time->values, rests);
   if (even.jitter > most_jitter) {
     card.missing = NoNoise::unequal_rows;
     return card;
   }
+  card.other_spacing = keep_one_spacing(time->values, even);
   card.left_out = even.left_out;
   card.stretches = even.parts.size();
   double span = 0.0, steps = 0.0;

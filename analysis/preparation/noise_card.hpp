@@ -34,17 +34,19 @@ enum class NoNoise { there_is_one, unequal_rows, too_short };
 struct NoiseCard {
   NoNoise missing = NoNoise::too_short;
   RecordingKind kind = RecordingKind::platform;
-  double interval = 0.0;      ///< of the samples [s]
-  std::size_t stretches = 0;  ///< evenly spaced rests that are pooled
-  double longest = 0.0;       ///< of them [s]
-  double total = 0.0;         ///< [s]
-  std::size_t left_out = 0;   ///< rows at rest with another interval, or alone between gaps
+  double interval = 0.0;          ///< of the samples [s]
+  std::size_t stretches = 0;      ///< evenly spaced rests that are pooled
+  double longest = 0.0;           ///< of them [s]
+  double total = 0.0;             ///< [s]
+  std::size_t left_out = 0;       ///< rows at rest with another interval, or few between gaps
+  std::size_t other_spacing = 0;  ///< of them those with another interval
   std::vector<ChannelNoise> channels;
 };
 
 /// Looks at each gyro and accelerometer channel in rests of a recording. Nothing is differenced
 /// across a gap or from one rest to the next. Rows whose distances scatter by more than a fifth of
-/// what is usual are refused (unequal_rows): an average over them is none over equal times.
+/// what is usual in their rest are refused (unequal_rows): an average over them is none over equal
+/// times. Of rests with several intervals those of the one with most rows count.
 ///
 /// On a platform what the accelerometers read changes with the attitude in every dwell: the
 /// polynomial of fourth degree of each dwell is taken off, which leaves Earth rate and drift below

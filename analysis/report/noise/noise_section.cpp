@@ -104,6 +104,11 @@ Sentences reading(const NoiseCard& card) {
       number_text(card.longest, 4), number_text(card.interval, 4),
       card.kind == RecordingKind::platform ? ", the course of each dwell (fourth degree) taken off"
                                            : ""));
+  if (card.other_spacing > 0)
+    said.items.push_back(fmt::format(
+        "{} row{} at rest with another interval {} left out: averages over them are over other "
+        "times.",
+        card.other_spacing, plural(card.other_spacing), card.other_spacing == 1 ? "is" : "are"));
   said.items.push_back(
       "± is 1 sigma; < is an upper limit (95 %) of what is not distinguished from zero: without it "
       "chance shows as much in more than 1 of 100 recordings.");
@@ -181,7 +186,8 @@ nlohmann::json to_json(const NoiseCard& card, double gravity) {
   }
   return {{"interval_s", card.interval},    {"rests", card.stretches},
           {"longest_s", card.longest},      {"total_s", card.total},
-          {"rows_left_out", card.left_out}, {"channels", std::move(channels)}};
+          {"rows_left_out", card.left_out}, {"rows_of_other_intervals", card.other_spacing},
+          {"channels", std::move(channels)}};
 }
 
 }  // namespace drift::report

@@ -144,6 +144,26 @@ TEST(NoiseCard, AGapEndsAStretchAndUnequalRowsAreRefused) {
   EXPECT_TRUE(none.channels.empty());
 }
 
+TEST(NoiseCard, RestsOfAnotherIntervalAreLeftOut) {
+  // Rests of 150 rows every 25, 30 and 30 s: together they had one of 28.3 s, which none has.
+  Recording r = platform(5e-6);
+  std::vector<double>& time = r.channels[0].values;
+  for (std::size_t k = 0; k < 160; ++k) time[k] += 5.0 * static_cast<double>(159 - k);
+  const auto rests = preparation::resting_rows(r);
+  const NoiseCard card = noise_card(r, RecordingKind::platform, rests);
+  EXPECT_NEAR(card.interval, 30.0, 1e-9);
+  EXPECT_EQ(card.stretches, 2u);
+  EXPECT_NEAR(card.total, 300 * 30.0, 1e-6);
+  EXPECT_EQ(card.other_spacing, 150u);
+  EXPECT_EQ(card.left_out, 150u);
+  ASSERT_EQ(card.channels.size(), 3u);
+  for (const ChannelNoise& c : card.channels) expect_white(c, 5e-6, 30.0);
+  // Rows every 20 s beside those every 30 and 60 s are even in their rests.
+  for (std::size_t k = 0; k < 160; ++k) time[k] = 4800.0 - 20.0 * static_cast<double>(159 - k);
+  for (std::size_t k = 320; k < 480; ++k) time[k] += 30.0 * static_cast<double>(k - 320);
+  EXPECT_EQ(noise_card(r, RecordingKind::platform, rests).missing, NoNoise::there_is_one);
+}
+
 TEST(NoiseCard, MissingRowsAndSamplesDoNotAddToTheScatter) {
   const auto scatter = [](const Recording& r) {
     return preparation::scatter_at_rest(r, preparation::resting_rows(r), accelerometer_channels);

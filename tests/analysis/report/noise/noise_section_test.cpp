@@ -109,6 +109,16 @@ TEST(NoiseSection, OnlyWhatIsSureIsToBePasted) {
   EXPECT_EQ(report::noise_keys({}), "");
 }
 
+TEST(NoiseSection, RowsOfAnotherIntervalAreSaidToBeLeftOut) {
+  NoiseCard card = card_of();
+  const auto words = [&] { return report::text_of({report::noise_section(card, 9.8)}); };
+  EXPECT_EQ(words().find("another interval"), std::string::npos);
+  card.other_spacing = 96;
+  EXPECT_NE(words().find("96 rows at rest with another interval are left out"), std::string::npos)
+      << words();
+  EXPECT_EQ(report::to_json(card, 9.8)["rows_of_other_intervals"], 96);
+}
+
 TEST(NoiseSection, WithoutACardTheReasonIsSaid) {
   NoiseCard none;
   none.missing = NoNoise::unequal_rows;
