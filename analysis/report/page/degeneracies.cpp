@@ -42,15 +42,15 @@ class Writer {
     constexpr int fewest = 3, all = std::numeric_limits<double>::max_digits10;
     for (int digits = fewest; digits <= all; ++digits) {
       out = in_words(states, v, digits);
-      if (unseen(out)) break;
+      if (std::pow(signal_of(as_written(out)), 2) < unseen_information) break;
     }
+    out.signal = signal_of(as_written(out));
     if (states.size() == 1) {
-      const double alone = column_[static_cast<std::size_t>(keep)];
-      exact = alone <= rounding_signal(space_.information_root);
-      out.signal = exact ? 0.0 : alone;
+      exact = out.signal == 0.0;
+      out.unrounded = out.signal;
       out.reason = no_signal_reason(out.parts.front().param, exact, mounting_, space_.excitation);
-    } else if (!exact) {
-      out.signal = (space_.information_root * v).norm() / v.norm();
+    } else {
+      out.unrounded = exact ? 0.0 : signal_of(v);
     }
     return out;
   }
@@ -97,13 +97,18 @@ class Writer {
     return out;
   }
 
-  bool unseen(const NamedDirection& direction) const {
+  VecX as_written(const NamedDirection& direction) const {
     VecX v = VecX::Zero(static_cast<Eigen::Index>(layout_.size()));
     for (const NamedDirection::Part& part : direction.parts) {
       const auto k = std::ranges::find(layout_.params, part.param) - layout_.params.begin();
       v[k] = part.coefficient * per_unit(k);
     }
-    return (space_.information_root * v).squaredNorm() < unseen_information * v.squaredNorm();
+    return v;
+  }
+  /// Of a prior sigma along v [sigma]; 0 if nothing but rounding.
+  double signal_of(const VecX& v) const {
+    const double signal = (space_.information_root * v).norm() / v.norm();
+    return signal <= rounding_signal(space_.information_root) ? 0.0 : signal;
   }
 
   std::size_t param(Eigen::Index k) const { return layout_.params[static_cast<std::size_t>(k)]; }
@@ -226,9 +231,10 @@ std::string unseen_text(const std::vector<WeakDirection>& directions,
 
 Table direction_table(std::string title) {
   return {
-      std::move(title), "signal | <direction, each parameter in its unit",
-      fmt::format("signal: what one prior sigma along the direction leaves in the data, in "
-                  "sigmas of their noise; 0: rounding alone. Parts and digits are as many as it "
+      std::move(title), "signal | unrounded | <direction, each parameter in its unit",
+      fmt::format("signal: what one prior sigma along the direction as it is written leaves in the "
+                  "data, in sigmas of their noise; unrounded: the same with all its parts and "
+                  "digits, 0 where that is rounding alone. Parts and digits are as many as it "
                   "takes to leave less than {} as written.",
                   limit_text())};
 }
@@ -240,7 +246,7 @@ void add_directions(Table& table, const std::vector<NamedDirection>& directions)
   for (const std::string& reason : reasons) {
     table.add_heading((reason.empty() ? "for no known reason" : reason) + ":");
     for (const NamedDirection& d : directions)
-      if (d.reason == reason) table.add({d.signal, d.combination});
+      if (d.reason == reason) table.add({d.signal, d.unrounded, d.combination});
   }
 }
 

@@ -19,8 +19,10 @@ struct NamedDirection {
   std::vector<Part> parts;  ///< in library order; the first counts 1
   std::string combination;  ///< "D_F_x - D_II_x - D_OO_x - D_SS_x"
   std::string reason;       ///< in words, where physics.md 2.4 knows it; else empty
-  /// What one prior sigma along it leaves in the data [sigma]; 0 if nothing but rounding.
+  /// What one prior sigma along it, as it is written, leaves in the data [sigma]; 0 if nothing but
+  /// rounding.
   double signal = 0.0;
+  double unrounded = 0.0;  ///< the same with all parts and digits
 };
 
 /// What a test does not see, and what says so.

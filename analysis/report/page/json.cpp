@@ -58,6 +58,7 @@ Json directions_json(const std::vector<NamedDirection>& directions) {
     all.push_back({{"combination", d.combination},
                    {"coefficients", parts},
                    {"signal_sigma", d.signal},
+                   {"unrounded_signal_sigma", d.unrounded},
                    {"reason", text_or_null(d.reason)}});
   }
   return all;

@@ -154,8 +154,12 @@ TEST(NameDegeneracies, KeepsASmallPartThatIsSeenAndNoOther) {
   ASSERT_EQ(named.size(), 1u);
   EXPECT_EQ(named[0].combination, "D_F_x + 94281 s_x");
   EXPECT_EQ(named[0].reason, "");
-  EXPECT_EQ(named[0].signal, 0.0);
-  EXPECT_LT(signal_as_written(l, space.root, named[0]), 1e-3);
+  // D_F_z is not written, and misses: 5000 * 1e-6 / |94281 s_x in prior sigmas|.
+  EXPECT_EQ(named[0].unrounded, 0.0);
+  EXPECT_GT(named[0].signal, 1e-6);
+  EXPECT_LT(named[0].signal, 1e-3);
+  const double written = signal_as_written(l, space.root, named[0]);
+  EXPECT_NEAR(named[0].signal, written, 1e-6 * written);
   EXPECT_NEAR(signal_as_written(l, space.root, {{{test::param("s_x"), 1.0}}, {}, {}}), 53.0, 0.1);
 }
 
@@ -176,6 +180,23 @@ TEST(NameDegeneracies, WritesTheDigitsThatTheSignalTakes) {
   report::add_directions(table, named);
   EXPECT_NE(report::text_of(table, 100).find("D_I_y + 123.4567 K0_x"), std::string::npos);
   EXPECT_LT(signal_as_written(l, space.root, named[0]), 1e-3);
+}
+
+TEST(NameDegeneracies, TheSignalIsThatOfTheDirectionAsItIsWritten) {
+  // In seven digits 123.456749 is 123.4567, which is off by 4.9e-5: 32 sigma for one make 1.6e-3.
+  // In eight, 123.45675, it is off by 1e-6: 3e-5.
+  const Layout l = layout();
+  const Unseen space(l, {{{"D_I_y", 1.0}, {"K0_x", 123.456749}}});
+  const auto named = space.named(l);
+  ASSERT_EQ(named.size(), 1u);
+  EXPECT_EQ(named[0].combination, "D_I_y + 123.45675 K0_x");
+  const double written = signal_as_written(l, space.root, named[0]);
+  EXPECT_GT(written, 1e-5);
+  EXPECT_NEAR(named[0].signal, written, 1e-6 * written);
+  EXPECT_EQ(named[0].unrounded, 0.0);
+  const report::Json json = report::directions_json(named);
+  EXPECT_EQ(json[0]["signal_sigma"], named[0].signal);
+  EXPECT_EQ(json[0]["unrounded_signal_sigma"], 0.0);
 }
 
 TEST(NameDegeneracies, SaysNoSignalOfWhatHasNoneAlone) {
