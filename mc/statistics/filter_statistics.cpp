@@ -23,6 +23,9 @@ double ChiSquareSum::low() const {
 double ChiSquareSum::high() const {
   return stats::chi_square_band(dof).high;
 }
+double ChiSquareSum::sigmas_above() const {
+  return dof > 0.0 ? (mean() - 1.0) / std::sqrt(2.0 / dof) : 0.0;
+}
 
 double ParameterHealth::start_ratio() const {
   return start_depends.of > 0 ? std::sqrt(start_square / static_cast<double>(start_depends.of))

@@ -26,6 +26,8 @@ struct ChiSquareSum {
   double low() const;
   double high() const;
   bool holds() const { return mean() >= low() && mean() <= high(); }
+  /// How many sigmas of an honest filter's mean() it lies above 1: the variance is 2/dof.
+  double sigmas_above() const;
 };
 
 /// What the runs say of one filter started in one way.

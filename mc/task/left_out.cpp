@@ -121,4 +121,14 @@ LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter) {
   return out;
 }
 
+bool drawn_from_beliefs(const TruthSpec& truth, const FilterSpec& filter) {
+  if (truth.coupling != filter.coupling || !left_out(truth, filter).nothing()) return false;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (filter.active[i] && !(truth.active[i] && truth.priors[i] == filter.priors[i])) return false;
+  return truth.initial_attitude == filter.initial_attitude &&
+         truth.noise.angle_random_walk == filter.noise.angle_random_walk &&
+         truth.noise.drift_random_walk == filter.noise.drift_random_walk &&
+         (filter.starts.empty() || filter.starts.front().empty());
+}
+
 }  // namespace drift::mc

@@ -25,4 +25,11 @@ struct LeftOut {
 /// has beyond the truth harms nothing.
 LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter);
 
+/// Whether truths are drawn from what the filter believes and starts from: it leaves nothing out,
+/// and coupling, priors and noise are the same, too. The mean of the error squared over the
+/// covariance, both of the parameters given the data, is then 1 for each parameter, over many runs
+/// and whatever the model: E[(x - m)^T P^-1 (x - m) | y] = trace(P^-1 P) for every y. A filter
+/// whose NEES differs is off by its own approximation.
+bool drawn_from_beliefs(const TruthSpec& truth, const FilterSpec& filter);
+
 }  // namespace drift::mc

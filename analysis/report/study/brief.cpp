@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/study/sections.hpp"
 
 namespace drift::report {
@@ -16,7 +17,17 @@ struct Tally {
   stats::Rate silent = {};
   double sigmas_off = 1.0;  ///< factor between errors and sigmas of the worst pair
   const Pair* overconfident = nullptr;
+  const Pair* not_linear = nullptr;  ///< the worst whose truths are those that it believes in
 };
+
+/// Whether errors are larger than the sigmas by more than chance where the filter knows all there
+/// is to know: what is left is that it is linear about one estimate.
+bool not_linear(const StudyResults& results, const Pair& pair) {
+  const mc::Study& study = results.points[pair.point].study;
+  return mc::drawn_from_beliefs(study.truth, study.filters[pair.filter]) &&
+         statistics_of(results, pair).starts().front().nees.sigmas_above() >
+             inference::FitLimits::misfit;
+}
 
 void add(Tally& tally, const StudyResults& results, const Pair& pair) {
   const mc::FilterStatistics& filter = statistics_of(results, pair);
@@ -33,6 +44,11 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
     tally.sigmas_off = off;
     tally.overconfident = &pair;
   }
+  if (not_linear(results, pair) &&
+      (tally.not_linear == nullptr ||
+       sigmas_off(filter.starts().front()) >
+           sigmas_off(statistics_of(results, *tally.not_linear).starts().front())))
+    tally.not_linear = &pair;
   if (tally.worst == nullptr || silent.value() > tally.silent.value()) {
     tally.worst = &pair;
     tally.silent = silent;
@@ -64,6 +80,21 @@ std::string sigmas_text(const StudyResults& results, const Tally& t) {
   return fmt::format(
       "Do not trust the sigmas: errors are up to {} times as large (root of NEES/dof; {}).",
       number_text(t.sigmas_off, 2), pair_in_words(results, *t.overconfident));
+}
+
+std::string not_linear_text(const StudyResults& results, const Pair& pair) {
+  const mc::StartStatistics& start = statistics_of(results, pair).starts().front();
+  const mc::EstimatorKind estimator = results.points[pair.point].study.monte_carlo.estimator;
+  return fmt::format(
+      "The sigmas are too small: errors are {} times as large (root of NEES/dof, by chance up to "
+      "{}; {}). Truths, noise and filter are alike, so it is the estimator: it is linear about one "
+      "estimate, and over what stays unknown the model is not (products of parameters, narrow "
+      "effects). {}.",
+      number_text(sigmas_off(start), 3), number_text(std::sqrt(start.nees.high()), 3),
+      pair_in_words(results, pair),
+      estimator == mc::EstimatorKind::ekf
+          ? "Set monte_carlo.estimator = \"iterated\", which linearises anew"
+          : "Go by the errors of this study, not by the sigmas");
 }
 
 }  // namespace
@@ -102,6 +133,8 @@ InBrief study_in_brief(const StudyResults& results) {
       brief.more.add(Weight::wrong, sigmas_text(results, *t));
       brief.tone = Tone::bad;
     }
+  if (right.not_linear != nullptr && right.sigmas_off <= much_too_small)
+    brief.more.add(Weight::doubtful, not_linear_text(results, *right.not_linear));
   if (lost > 0) {
     brief.more.add(
         Weight::wrong,

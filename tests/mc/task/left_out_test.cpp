@@ -156,5 +156,33 @@ TEST(LeftOut, IsAnotherEquation) {
   EXPECT_TRUE(mc::left_out(truth(eq6), half).equation);
 }
 
+TEST(LeftOut, TruthsAreDrawnFromWhatAFilterBelievesWherePriorsAndNoiseAreItsOwn) {
+  const auto drawn = [](const TruthSpec& truth, const FilterSpec& filter) {
+    return mc::drawn_from_beliefs(truth, filter);
+  };
+  const TruthSpec truth = truth_with({"fixed_drift", "gyro_misalignment"});
+  const FilterSpec filter = filter_with({"fixed_drift", "gyro_misalignment"});
+  EXPECT_TRUE(drawn(truth, filter));
+  EXPECT_FALSE(drawn(truth, filter_with({"fixed_drift"}))) << "left out";
+  EXPECT_FALSE(drawn(truth_with({"fixed_drift"}), filter)) << "zero, which the filter knows not";
+  EXPECT_FALSE(drawn(truth_with({"fixed_drift", "gyro_misalignment"}, Coupling::servo),
+                     filter_with({"fixed_drift", "gyro_misalignment"}, Coupling::eq6)));
+  TruthSpec other = truth;
+  other.priors[param("D_F_x")] = fixed(0.0);
+  EXPECT_TRUE(mc::left_out(other, filter).nothing());
+  EXPECT_FALSE(drawn(other, filter));
+  other = truth;
+  other.initial_attitude *= 2.0;
+  EXPECT_FALSE(drawn(other, filter));
+  FilterSpec cautious = filter;
+  cautious.noise.drift_random_walk = 1e-9;
+  EXPECT_FALSE(drawn(truth, cautious));
+  FilterSpec elsewhere = filter;
+  elsewhere.starts.assign(1, Start{});
+  EXPECT_TRUE(drawn(truth, elsewhere));
+  elsewhere.starts.front() = {{param("D_F_x"), 1e-6}};
+  EXPECT_FALSE(drawn(truth, elsewhere));
+}
+
 }  // namespace
 }  // namespace drift::left_out_test
