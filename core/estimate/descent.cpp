@@ -11,6 +11,17 @@ namespace {
 /// Small steps may be damping's doing.
 constexpr double hardly_damped = 1e-2;
 
+/// The part of a step at which the parabola through the cost at both its ends, and the slope where
+/// it begins, is least: a half where the cost bends twice as much along the step as its rows say,
+/// so that it gains nothing. 1 of a step that gains a quarter of what its slope promises (Nocedal
+/// and Wright, Numerical Optimization, 4.1), and where the cost need not be a parabola: of one
+/// longer than a sigma, or that ends higher than twice its slope.
+double best_part(double slope, double change) {
+  constexpr double one_sigma = 1.0;  // squared, as the cost is
+  const bool gains = change <= -0.25 * slope, near = slope < one_sigma && change <= 2.0 * slope;
+  return gains || !near ? 1.0 : slope / (change + 2.0 * slope);
+}
+
 class Descent {
  public:
   Descent(BatchProblem& problem, VecX x, std::vector<Vec3> psi, const BatchOptions& options,
@@ -38,8 +49,11 @@ class Descent {
         now_.converged = true;
         return false;
       }
-      Moved to = moved(now_.at, step.dx, step.dpsi);
-      Evaluation next = problem_.evaluate(std::move(to.x), std::move(to.psi));
+      Evaluation next = after(step, 1.0);
+      // Damping shortens steps in directions that are seen little, whichever goes too far.
+      if (const double part = best_part(step.slope, next.cost - now_.at.cost); part < 1.0)
+        if (Evaluation before = after(step, part); before.cost < next.cost)
+          next = std::move(before);
       // The last steps change the cost by rounding only: accept them as standing still.
       if (next.cost <= now_.at.cost * (1.0 + 1e-12)) {
         accept(std::move(next));
@@ -50,6 +64,13 @@ class Descent {
     }
     now_.converged = smallest_change < standing_still_;  // up to rounding of the cost
     return false;
+  }
+
+  Evaluation after(const BatchEquations::Step& step, double part) {
+    std::vector<Vec3> dpsi = step.dpsi;
+    for (Vec3& d : dpsi) d *= part;
+    Moved to = moved(now_.at, part * step.dx, dpsi);
+    return problem_.evaluate(std::move(to.x), std::move(to.psi));
   }
 
   void accept(Evaluation next) {
