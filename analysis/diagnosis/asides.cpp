@@ -134,12 +134,11 @@ std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
       estimate.parameters,
       [&](const ParameterEstimate& p) { return nominal.active[p.param] && p.prior_sigma > 0.0; }));
   if (out.of == 0) return std::nullopt;
-  const double tries = static_cast<double>(out.of);
   for (const auto& [param, sigmas] :
-       identification::beyond_prior(estimate, stats::normal_half_width(1.0 - alpha / tries)))
+       identification::beyond_prior(estimate, identification::farthest_by_chance(out.of, alpha)))
     if (nominal.active[param])
       out.parameters.push_back(
-          {*estimate.find(param), sigmas, tries * 2.0 * stats::normal_distribution(-sigmas)});
+          {*estimate.find(param), sigmas, identification::chance_of_farthest(out.of, sigmas)});
   if (out.parameters.empty()) return std::nullopt;
   out.scales = identification::common_scale(estimate);
   return out;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/stats/normal.hpp"
+
 namespace drift::identification {
 
 std::vector<BeyondPrior> beyond_prior(const EstimateResult& estimate, double sigmas) {
@@ -11,6 +13,14 @@ std::vector<BeyondPrior> beyond_prior(const EstimateResult& estimate, double sig
     if (off > sigmas) far.push_back({p.param, off});
   }
   return far;
+}
+
+double farthest_by_chance(std::size_t parameters, double chance) {
+  return stats::normal_half_width(1.0 - chance / static_cast<double>(parameters));
+}
+
+double chance_of_farthest(std::size_t parameters, double sigmas) {
+  return static_cast<double>(parameters) * 2.0 * stats::normal_distribution(-sigmas);
 }
 
 }  // namespace drift::identification

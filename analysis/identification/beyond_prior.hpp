@@ -17,4 +17,10 @@ struct BeyondPrior {
 std::vector<BeyondPrior> beyond_prior(const EstimateResult& estimate,
                                       double sigmas = inference::FitLimits::beyond_prior);
 
+/// [prior sigma] The farthest of so many parameters, each of its prior, lies beyond it with no more
+/// than this chance.
+double farthest_by_chance(std::size_t parameters, double chance);
+/// Chance that the farthest of so many lies as far.
+double chance_of_farthest(std::size_t parameters, double sigmas);
+
 }  // namespace drift::identification

@@ -275,6 +275,10 @@ struct FitLimits {
   /// Tests: FitWords.ParametersFarFromTheirPriors..., Thresholds.ParametersFiveSigma...,
   /// SizePrior.FarBeyond...
   static constexpr double beyond_prior = 5.0;
+  /// Chance that the farthest of all parameters of right priors lies so far from its mean, below
+  /// which a fit has to be examined by a diagnosis: one right study in 20, as beyond the band of
+  /// its chi-square. Test: FitWords.AParameterFarFromItsPrior...
+  static constexpr double far_from_prior = 0.05;
   /// [2 log L, scaled to a chi-square of 1 per degree of freedom] by which the mirrored latitude
   /// must fit better to be the right one where something else misfits too: odds of e^20 against a
   /// wrong hemisphere in one study of 1000 leave 2e-6. Test: LatitudeDoubt.TheWrongHemisphere...

@@ -92,11 +92,13 @@ std::string terms_text(std::string_view more = "") {
       more);
 }
 
-std::string filter_text(std::string_view name, std::string_view coupling, std::string_view more) {
+/// said: further words on the equation, "; ...".
+std::string filter_text(std::string_view name, std::string_view coupling, std::string_view more,
+                        std::string_view said = "") {
   return fmt::format(
       "\n[[filter]]\nname     = \"{}\"\ncoupling = \"{}\"            # the drift "
-      "equation: {}\n{}",
-      name, coupling, names_of_equations(), terms_text(more));
+      "equation: {}{}\n{}",
+      name, coupling, names_of_equations(), said, terms_text(more));
 }
 
 /// How an effect that the library does not have may be tried.
@@ -163,9 +165,14 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
   // Accelerometers of a real platform have errors of their own, beside which any other hides.
   const bool real = kind == StudyKind::platform || kind == StudyKind::diagnose;
   const std::string_view more = real ? ", \"accelerometer\"" : "";
-  text += filter_text(kind == StudyKind::diagnose ? "nominal" : "eq5", "eq5", more);
-  if (kind != StudyKind::diagnose) text += filter_text("eq6", "eq6", more);
-  if (kind == StudyKind::diagnose) text += own_term_text;
+  if (kind == StudyKind::diagnose) {
+    // A filter on the wrong one may fit, with wrong values.
+    text += filter_text("nominal", "eq5", more,
+                        "; another may fit as well: `driftscope diagnose` tells");
+    text += own_term_text;
+  } else {
+    text += filter_text("eq5", "eq5", more) + filter_text("eq6", "eq6", more);
+  }
   if (kind == StudyKind::study || kind == StudyKind::sweep)
     text +=
         "\n[monte_carlo]\nruns = 200               # each draws parameters and noise anew\nseed "

@@ -27,6 +27,8 @@ TEST(NewStudy, EveryKindIsValid) {
     const Answer checked = driftscope("check " + file);
     EXPECT_EQ(checked.code, 0) << kind << "\n" << checked.err;
     EXPECT_EQ(has(checked.out, "sweep."), kind == "sweep");
+    EXPECT_EQ(has(text_of(file), "another may fit as well: `driftscope diagnose` tells"),
+              kind == "diagnose");
   }
   EXPECT_EQ(driftscope("new poem -o " + folder.file("p.toml")).code,
             static_cast<int>(ExitCode::usage));

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "analysis/identification/beyond_prior.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
 
@@ -121,6 +122,31 @@ TEST(FitWords, ParametersFarFromTheirPriorsAreSaid) {
       << said();
   EXPECT_EQ(report::beyond_prior({f.study, f.id, f.id.summaries[0]}).size(), 2u);
   EXPECT_EQ(report::identification_in_brief(f.study, f.id).tone, report::Tone::doubtful);
+}
+
+TEST(FitWords, AParameterFarFromItsPriorIsToBeExaminedByADiagnosis) {
+  // The farthest of all lies beyond the limit (3.3 prior sigmas or so) with a chance of 5 %.
+  Fitted f;
+  f.id.truth.reset();
+  f.id.simulated = false;
+  f.id.sources = {"r.csv"};
+  f.parameter(5).sigma = 0.99 * f.parameter(5).prior_sigma;  // learned nothing of: `rank`
+  const std::size_t of = f.id.runs[0].batch.estimate.parameters.size();
+  const double limit = identification::farthest_by_chance(of, inference::FitLimits::far_from_prior);
+  EXPECT_NEAR(identification::chance_of_farthest(of, limit), 0.05, 1e-9);
+  const auto put = [&](double sigmas) {
+    f.parameter(3).value = f.parameter(3).prior_mean + sigmas * f.parameter(3).prior_sigma;
+    return report::identification_in_brief(f.study, f.id);
+  };
+  EXPECT_NE(put(limit - 0.01).next.find("driftscope rank"), std::string::npos);
+  const report::InBrief brief = put(-limit - 0.01);
+  const std::string key = report::parameter_key(f.parameter(3).param);
+  EXPECT_NE(brief.next.find("driftscope diagnose"), std::string::npos) << brief.next;
+  EXPECT_NE(brief.next.find("behind " + key), std::string::npos) << brief.next;
+  const std::string said = fmt::format("{}", fmt::join(brief.more.texts(), "\n"));
+  EXPECT_NE(said.find("far from the mean of its prior: " + key), std::string::npos) << said;
+  // So far that no prior has it: the graver words, and the same step.
+  EXPECT_NE(put(9.0).next.find("driftscope diagnose"), std::string::npos);
 }
 
 TEST(FitWords, TheFirstSentenceSaysWhichInstrumentsWereMissing) {
