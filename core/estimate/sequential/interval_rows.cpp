@@ -1,6 +1,8 @@
 #include "core/estimate/sequential/interval_rows.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <limits>
 
 #include "core/estimate/rest_rate.hpp"
 #include "core/estimate/sequential/drift_walk.hpp"
@@ -24,6 +26,31 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
                 filter.noise.angle_random_walk > 0.0),
       rest_G_(padded_rows(layout_.num_rate)) {
   require_covariates(model_, timeline);
+}
+
+bool IntervalRows::strays() const {
+  const double arw = filter_.noise.angle_random_walk;
+  std::vector<double> walked(attitude_.walking().size(), 0.0);  // variances, in those of the priors
+  double caged = 0.0, most = 0.0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
+    const Interval& interval = timeline_.intervals[i];
+    if (interval.cage) caged = interval.t0;
+    const double duration = interval.t1 - caged;
+    most = std::max(most, arw * arw * duration);
+    for (std::size_t k = 0; k < walked.size(); ++k) {
+      const std::size_t state = attitude_.walking()[k];
+      if (follows_a_recording(timeline_, i))
+        walked[k] = variance_between_recordings(filter_, layout_, state, layout_.theta);
+      walked[k] +=
+          walk_variance(filter_, layout_, state, layout_.theta, time_since_before(timeline_, i));
+      const double sigma = layout_.sigma[static_cast<Eigen::Index>(state)] * duration;  // [rad]
+      most = std::max(most, arw * arw * duration + walked[k] * sigma * sigma);
+    }
+    if (readout_.accelerometers)
+      least = std::min(least, interval.accelerometer_noise(readout_.accelerometer_noise));
+    if (readout_.gimbals) least = std::min(least, interval.gimbal_noise(readout_.gimbal_noise));
+  }
+  return most > least * least;
 }
 
 void IntervalRows::reset(const Theta& theta) {

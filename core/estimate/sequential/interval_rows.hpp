@@ -24,6 +24,10 @@ class IntervalRows {
   AttitudeFilter& attitude() { return attitude_; }
   const AttitudeFilter& attitude() const { return attitude_; }
   std::size_t width() const { return attitude_.width(); }  ///< of a row
+  /// Whether what drives the platform at random may take it farther off the path of constant
+  /// parameters, between two cagings and about one axis, than the noise of one sample hides: one
+  /// sigma of the drift that it has walked to by then, all the way, against the least noise.
+  bool strays() const;
 
   /// Before the first interval. theta: what is linearised about.
   void reset(const Theta& theta);

@@ -17,7 +17,7 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
       lanes_(timeline, rows_.model()),
       reference_(timeline, rows_.model()),
       gated_(has_outliers(rows_.model().terms)),
-      walks_(!rows_.attitude().walking().empty() || filter.noise.angle_random_walk > 0.0),
+      strays_(rows_.strays()),
       store_(3 * rows_.most_triples() * rows_.width()),
       neighbours_(rows_.most_triples()),
       residual_(3 * rows_.most_triples()),
@@ -172,7 +172,7 @@ bool IteratedPasses::linear_pass(const Measurements& measured) {
   rows_.reset(theta_);
   triples_ = summed_ = scalars_ = 0;
   information_.clear();
-  if (!(walks_ ? along_filtered(measured) : along_reference(measured))) return false;
+  if (!(strays_ ? along_filtered(measured) : along_reference(measured))) return false;
   const bool finite = information_.factorise();
   prior_ = x_start_ - x_reference_;
   moved_ = information_.solve(prior_);
@@ -181,7 +181,7 @@ bool IteratedPasses::linear_pass(const Measurements& measured) {
   if (diverged(finite && std::isfinite(nis_) && x_.allFinite() && x_.cwiseAbs().maxCoeff() <= 1e6,
                timeline_.intervals.back().t1, Pass::linear))
     return false;
-  for (std::size_t i = 0; i < timeline_.intervals.size() && !walks_; ++i) {
+  for (std::size_t i = 0; i < timeline_.intervals.size() && !strays_; ++i) {
     if (!ends_chain(timeline_, i)) continue;
     const Interval& interval = timeline_.intervals[i];
     const Vec3 psi = ends_[static_cast<std::size_t>(interval.chain)].attitude(moved_);
@@ -236,7 +236,7 @@ bool IteratedPasses::along_filtered(const Measurements& measured) {
 /// Where the block after a caging must have begun to end at phi.
 void IteratedPasses::keep_start(std::size_t first, std::size_t end, const Vec3& phi) {
   const auto& all = timeline_.intervals;
-  if (!walks_ || !all[first].cage || !all_in_lanes(rows_.model().terms)) return;
+  if (!strays_ || !all[first].cage || !all_in_lanes(rows_.model().terms)) return;
   path_[all[end - 1].last_node()] = phi;
   lanes_.set_theta(theta_);
   lanes_.backward(first, end, path_.data());

@@ -23,9 +23,10 @@ namespace drift {
 /// minimum is chi-square. While a pass moves some parameter by more than a posterior sigma there is
 /// another, four at most; mostly there is one.
 ///
-/// Where a drift or the attitude walks, no path of the parameters alone stays near: then the
-/// reference of a linear pass is the filtered attitude itself, taken over at the end of every
-/// block. After a caging it begins where the first sample of the pass before has put it.
+/// Where a drift or the attitude walks so far that no path of the parameters alone stays near
+/// (IntervalRows::strays()), the reference of a linear pass is the filtered attitude itself, taken
+/// over at the end of every block. After a caging it begins where the first sample of the pass
+/// before has put it: less is known of it there than of a path that ends where all samples say.
 class IteratedPasses : public FilterEstimate {
  public:
   static constexpr int most_passes = 4;  ///< linear ones
@@ -63,7 +64,7 @@ class IteratedPasses : public FilterEstimate {
   Information information_;
   PathInLanes lanes_;
   ReferencePath reference_;
-  bool gated_, walks_;
+  bool gated_, strays_;
   std::vector<double> store_;  ///< all rows of a pass
   /// Of three rows: their channel, and whether the interval before has some of it too; then (when
   /// lags are measured) the three rows before and after them, and whether they stand for both
