@@ -9,7 +9,7 @@ namespace drift::report {
 namespace {
 
 using identification::BeyondPrior;
-constexpr std::size_t most = 6;  // keys that are named
+constexpr std::size_t most_named = 6;  // keys that are named
 
 std::vector<std::string> keys_of(std::vector<BeyondPrior> far) {
   std::ranges::stable_sort(far, std::greater{}, &BeyondPrior::sigmas);
@@ -36,7 +36,7 @@ std::string beyond_text(const FilterView& v) {
       "physics, or a study that is not of this recording (latitude, axes, unit of time).",
       v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
       inference::FitLimits::beyond_prior, one ? "its" : "their",
-      one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most));
+      one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most_named));
 }
 
 std::string far_text(const FilterView& v) {
@@ -47,7 +47,7 @@ std::string far_text(const FilterView& v) {
   return fmt::format(
       "Filter {}: far from the mean of {} prior: {} ({} prior sigmas; chance that one of {} is: "
       "{}). Missing physics, or another drift equation, may hide in what a filter estimates.",
-      v.spec().name, far.size() == 1 ? "its" : "their", listed_up_to(keys_of(far), most),
+      v.spec().name, far.size() == 1 ? "its" : "their", listed_up_to(keys_of(far), most_named),
       far.size() == 1 ? number_text(sigmas, 2) : "up to " + number_text(sigmas, 2), of,
       p_text(identification::chance_of_farthest(of, sigmas)));
 }

@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "core/estimate/rest_rate.hpp"
 #include "core/estimate/sequential/drift_walk.hpp"
@@ -31,7 +31,7 @@ IntervalRows::IntervalRows(const FilterSpec& filter, const Timeline& timeline,
 bool IntervalRows::strays() const {
   const double arw = filter_.noise.angle_random_walk;
   std::vector<double> walked(attitude_.walking().size(), 0.0);  // variances, in those of the priors
-  double caged = 0.0, most = 0.0, least = std::numeric_limits<double>::infinity();
+  double caged = 0.0, most = 0.0;
   for (std::size_t i = 0; i < timeline_.intervals.size(); ++i) {
     const Interval& interval = timeline_.intervals[i];
     if (interval.cage) caged = interval.t0;
@@ -46,11 +46,8 @@ bool IntervalRows::strays() const {
       const double sigma = layout_.sigma[static_cast<Eigen::Index>(state)] * duration;  // [rad]
       most = std::max(most, arw * arw * duration + walked[k] * sigma * sigma);
     }
-    if (readout_.accelerometers)
-      least = std::min(least, interval.accelerometer_noise(readout_.accelerometer_noise));
-    if (readout_.gimbals) least = std::min(least, interval.gimbal_noise(readout_.gimbal_noise));
   }
-  return most > least * least;
+  return most > std::pow(filter_.initial_attitude, 2);
 }
 
 void IntervalRows::reset(const Theta& theta) {

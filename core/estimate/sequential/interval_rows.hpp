@@ -25,8 +25,8 @@ class IntervalRows {
   const AttitudeFilter& attitude() const { return attitude_; }
   std::size_t width() const { return attitude_.width(); }  ///< of a row
   /// Whether what drives the platform at random may take it farther off the path of constant
-  /// parameters, between two cagings and about one axis, than the noise of one sample hides: one
-  /// sigma of the drift that it has walked to by then, all the way, against the least noise.
+  /// parameters, between two cagings and about one axis, than its attitude is unknown after them:
+  /// one sigma of the drift that it has walked to by then, all the way.
   bool strays() const;
 
   /// Before the first interval. theta: what is linearised about.
