@@ -85,26 +85,67 @@ std::optional<WrittenSteps> steps_of(const Recording& r, const std::vector<doubl
   return WrittenSteps{step, whole};
 }
 
-/// The usual distance of rows that are evenly spaced within every part.
-double spacing_of(const std::vector<double>& time, const std::vector<EvenPart>& parts) {
-  double product = 0.0, squares = 0.0;  // least squares of time against the number of the row
-  for (const EvenPart& s : parts) {
-    const double middle = 0.5 * (s.rows() - 1.0);
-    for (std::size_t k = s.first; k <= s.last; ++k) {
-      const double x = static_cast<double>(k - s.first) - middle;
-      product += x * (time[k] - time[s.first]);
-      squares += x * x;
-    }
+/// Distances of rows [s] that would be written as they are.
+struct Spacings {
+  double least = 0.0, most = HUGE_VAL;
+  bool any() const { return least <= most; }
+  void also(const Spacings& other) {
+    least = std::max(least, other.least);
+    most = std::min(most, other.most);
   }
-  return product / squares;
+};
+
+/// What is left of the times of a part without rows at such a distance, from the least to the most.
+double spread_at(double spacing, const std::vector<double>& time, const EvenPart& s) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t k = s.first; k <= s.last; ++k) {
+    const double off = time[k] - spacing * static_cast<double>(k - s.first);
+    low = std::min(low, off);
+    high = std::max(high, off);
+  }
+  return high - low;
 }
 
-/// Of rows that share a written time: a whole number of them to a step, where that fits what is
-/// written as well.
-double whole_spacing(double spacing, double step, const std::vector<EvenPart>& parts) {
-  const double whole = step / std::round(step / spacing);
-  const auto fits = [&](const EvenPart& s) { return std::abs(whole - spacing) * s.rows() < step; };
-  return std::ranges::all_of(parts, fits) ? whole : spacing;
+/// Whether times are rounded or cut, what even rows leave is spread over less than a step. The
+/// spread is convex in the distance: its least by thirds, both ends by halves.
+Spacings spacings_of(const std::vector<double>& time, const EvenPart& s, double step) {
+  if (s.rows() < 2.0) return {};
+  constexpr int rounds = 100;
+  const double usual = (time[s.last] - time[s.first]) / (s.rows() - 1.0),
+               reach = step / (s.rows() - 1.0);
+  double low = usual - reach, high = usual + reach;
+  for (int k = 0; k < rounds; ++k) {
+    const double third = (high - low) / 3.0;
+    const bool left = spread_at(low + third, time, s) < spread_at(high - third, time, s);
+    (left ? high : low) += left ? -third : third;
+  }
+  const double best = 0.5 * (low + high), widest = step * (1.0 - same);
+  if (spread_at(best, time, s) > widest) return {best, -HUGE_VAL};
+  const auto end = [&](double outside) {
+    double inside = best;
+    for (int k = 0; k < rounds; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      (spread_at(middle, time, s) > widest ? outside : inside) = middle;
+    }
+    return inside;
+  };
+  return {end(usual - 2.0 * reach), end(usual + 2.0 * reach)};
+}
+
+/// The roundest of them: a multiple of as large a 1, 2 or 5 times a power of ten as there is, the
+/// one nearest to the middle. Loggers are set to such: to whole seconds, where they write minutes,
+/// so that nothing finer than a sixtieth of a step is a distance. A row that is lost makes one.
+std::optional<double> roundest(const Spacings& all, double step) {
+  const double middle = 0.5 * (all.least + all.most), finest = step / 60.0;
+  for (double power = std::pow(10.0, std::ceil(std::log10(all.most)));
+       power >= finest * (1.0 - same); power *= 0.1)
+    for (const double unit : {power, 0.5 * power, 0.2 * power}) {
+      const double multiple = unit * std::round(middle / unit);
+      if (unit >= finest * (1.0 - same) && multiple > 0.0 && multiple >= all.least &&
+          multiple <= all.most)
+        return multiple;
+    }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -113,11 +154,23 @@ void take_even_times(Recording& r) {
   const auto channel = std::ranges::find(r.channels, "time", &Channel::name);
   if (channel == r.channels.end() || !r.begins.empty()) return;
   std::vector<double>& time = channel->values;
-  const std::vector<EvenPart> parts = positions_of(r);
+  std::vector<EvenPart> parts = positions_of(r);
   const auto written = steps_of(r, time, parts);
   if (!written) return;
-  const double step = written->step, usual = spacing_of(time, parts),
-               spacing = written->whole > 0.0 ? usual : whole_spacing(usual, step, parts);
+  const double step = written->step;
+  // The clock of a log goes on from position to position, unless rows are left out between them.
+  const EvenPart whole{0, r.rows() - 1};
+  Spacings spacings = spacings_of(time, whole, step);
+  if (spacings.any()) {
+    parts = {whole};
+  } else {
+    spacings = {};
+    for (const EvenPart& s : parts) spacings.also(spacings_of(time, s, step));
+    if (!spacings.any()) return;
+  }
+  const auto round = roundest(spacings, step);
+  if (!round) return;
+  const double spacing = *round;
   std::vector<double> even(time.size());
   for (const EvenPart& s : parts) {
     double off = 0.0;
@@ -129,10 +182,13 @@ void take_even_times(Recording& r) {
     }
   }
   time = std::move(even);
-  r.remarks.add(Weight::doubtful,
-                fmt::format("times are written in steps of {} s, and the rows are {} s apart: they "
-                            "are taken as evenly spaced within each position. Log finer times",
-                            number_text(step), number_text(spacing, 6)));
+  r.remarks.add(
+      Weight::doubtful,
+      fmt::format("times are written in steps of {} s: the rows are taken as evenly spaced "
+                  "within each position, {} s apart ({} to {} s would be written alike). "
+                  "Log finer times",
+                  number_text(step), number_text(spacing, 6), number_text(spacings.least, 6),
+                  number_text(spacings.most, 6)));
 }
 
 }  // namespace drift

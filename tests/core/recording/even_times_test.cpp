@@ -11,13 +11,13 @@
 namespace drift::even_times_test {
 namespace {
 
-/// Positions of 40 rows 60 s apart, written as `written` has it.
-Recording rows(int positions, const std::function<double(double, int)>& written) {
+/// Positions of 40 rows, or as many as are given, 60 s apart, written as `written` has it.
+Recording rows(int positions, const std::function<double(double, int)>& written, int each = 40) {
   Recording r;
   r.channels = {{"time", unit::s, {}}, {"position", unit::one, {}}};
   int row = 0;
   for (int p = 1; p <= positions; ++p)
-    for (int k = 0; k < 40; ++k, ++row) {
+    for (int k = 0; k < each; ++k, ++row) {
       r.channels[0].values.push_back(written(60.0 * (row + 1), row));
       r.channels[1].values.push_back(p);
       r.lines.push_back(r.lines.size() + 1);
@@ -44,6 +44,24 @@ TEST(EvenTimes, HoursWithTwoDecimalsAreAMinuteApartAgain) {
       }
     }
   }
+}
+
+TEST(EvenTimes, ShortPositionsHaveTheDistanceOfTheWholeLog) {
+  // Of twelve rows what is written repeats after three: 59.66 s by least squares in each position.
+  Recording r = rows(
+      12, [](double t, int) { return rounded(t, 36.0); }, 12);
+  take_even_times(r);
+  ASSERT_FALSE(r.remarks.empty());
+  const std::vector<double>& t = r.find("time")->values;
+  for (std::size_t k = 1; k < t.size(); ++k) EXPECT_NEAR(t[k] - t[k - 1], 60.0, 1e-9) << k;
+}
+
+TEST(EvenTimes, RowsOfWhichOneIsLostAreNotStretched) {
+  // Two rows in every minute but one: 30.1 s would do for all that is written.
+  Recording r = rows(6, [](double, int row) { return 60.0 * ((row + (row > 100)) / 2); });
+  const std::vector<double> before = r.find("time")->values;
+  take_even_times(r);
+  EXPECT_EQ(r.find("time")->values, before);
 }
 
 TEST(EvenTimes, RowsThatShareAMinuteAreHalfOfItApart) {
