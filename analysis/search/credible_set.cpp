@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/scores/library_prior.hpp"
@@ -97,6 +98,19 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
   return head;
 }
 
+/// Of fits of the same causes that ended in several valleys of a setting (other_valleys.hpp), the
+/// one of least cost: what evidence adds for the width of a valley, by the curvature of its rows,
+/// is too much where the cost bends more than these say.
+std::size_t deepest(const std::vector<Refit>& good, std::size_t k) {
+  std::size_t best = k;
+  const auto cost = [&](std::size_t n) { return good[n].after.fit.estimate.statistic; };
+  for (std::size_t n = 0; n < good.size(); ++n)
+    if (same_causes(good[n].choices, good[k].choices) && good[n].as_found == good[k].as_found &&
+        good[n].excess <= std::max(0.0, good[k].excess) && cost(n) < cost(best))
+      best = n;
+  return best;
+}
+
 }  // namespace
 
 bool can_be_weighed(const Fitted& e, const std::vector<Refit>& refits, Leftover left, Sizes sizes) {
@@ -144,6 +158,9 @@ CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {
   const std::vector<std::size_t> head = heads_of(e, good, by_weight(weight));
   std::vector<double> together(good.size(), 0.0);
   for (std::size_t k = 0; k < good.size(); ++k) together[head[k]] += weight[k] / sum;
+  for (std::size_t k = 0; k < good.size(); ++k)
+    if (const std::size_t best = together[k] > 0.0 ? deepest(good, k) : k; together[best] <= 0.0)
+      std::swap(together[k], together[best]);
   double held = 0.0;
   for (const std::size_t k : by_weight(together)) {
     if (together[k] <= 0.0) {  // another stands for it

@@ -32,8 +32,8 @@ struct CredibleSet {
 };
 
 /// Weighs explanations by evidence and prior; those up to the probability `credible` are kept. Of
-/// several with one name the best stands for all, and what says more is left out where less will
-/// do.
+/// several with one name the best stands for all (of the same causes with a setting in several
+/// valleys the fit of least cost), and what says more is left out where less will do.
 ///
 /// Adequate ones and those whose leftover may be chance compete alike, the latter at the price of
 /// that chance: a far better explanation beside which something unrelated is just significant must

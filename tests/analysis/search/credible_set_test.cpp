@@ -50,6 +50,23 @@ TEST(CredibleSet, AFarBetterExplanationDoesNotLoseToAPoorOneForATrifle) {
   EXPECT_NEAR(c.out.probability[0], 1.0 / (1.0 + std::exp(31.0 - (37.5 - 0.4))), 1e-12);
 }
 
+TEST(CredibleSet, OfTheValleysOfASettingTheDeepestIsStated) {
+  Case c;
+  const auto step = c.candidate("mass_unbalance_step", "z", {param("dD_I_z")});
+  c.e.set.candidates[step].variants.resize(2);
+  c.explanation(step, 40.0, -1.0);
+  c.explanation(step, 38.5, -1.0);
+  c.refits[1].choices[0].variant = 1;
+  c.refits[0].after.fit.estimate.statistic = 104.0;
+  c.refits[1].after.fit.estimate.statistic = 100.0;
+  c.weigh();
+  ASSERT_EQ(c.out.sets.size(), 1u);
+  EXPECT_EQ(c.out.sets[0].choices[0].variant, 1u);
+  EXPECT_NEAR(c.out.probability[0], 1.0, 1e-12);
+  ASSERT_EQ(c.out.beside.size(), 1u);
+  EXPECT_EQ(c.out.beside[0].choices[0].variant, 0u);
+}
+
 TEST(CredibleSet, WhatLeavesFarTooMuchIsNoExplanationHoweverGood) {
   Case c;
   const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
