@@ -11,17 +11,13 @@
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
+#include "core/recording/rows/check_time.hpp"
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
 #include "core/recording/rows/turned_rows.hpp"
 
 namespace drift {
 namespace {
-
-/// Where a row is, for messages: "line:column".
-std::string at(const Recording& r, std::size_t row, std::string_view column) {
-  return fmt::format("{}:{}", r.lines[row], column);
-}
 
 void check_names(const RawRecording& raw, Problems& problems) {
   for (std::size_t i = 0; i < raw.columns.size(); ++i) {
@@ -104,38 +100,6 @@ void check_columns(const Recording& r, RecordingKind kind, const std::string& no
                  "acc_x, acc_y, acc_z or gimbal_outer, gimbal_middle, gimbal_inner, or both", hint);
 }
 
-void check_time(const Recording& r, Problems& problems) {
-  const Channel* time = r.find("time");
-  if (!time) return;
-  double last = -HUGE_VAL;
-  std::size_t last_row = 0;
-  for (std::size_t i = 0; i < r.rows(); ++i) {
-    const double t = time->values[i];
-    if (std::isnan(t)) {
-      problems.add(at(r, i, "time"), "the time is missing", "a number in every row",
-                   "Give the time");
-    } else if (!(t > last)) {
-      problems.add(
-          at(r, i, "time"),
-          fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
-                      r.lines[last_row]),
-          "time to increase from row to row",
-          begins_again_at_midnight(last, t)
-              ? "If this is a clock that begins again at midnight, read it as a counter in "
-                "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
-                "and wrap = 86400000, or what a count is, and how many make a day"
-              : "Remove rows that were written twice; if a clock begins again here (in each "
-                "position, in autumn, where a counter is full), write times that go on, or read it "
-                "as a counter of [recording]; sort only rows that are out of order");
-      if (begins_again_at_midnight(last, t)) last = -HUGE_VAL;  // said once
-    }
-    if (t > last) {
-      last = t;
-      last_row = i;
-    }
-  }
-}
-
 /// Whether the rows come in the order of time.
 enum class RowOrder { known, broken };
 
@@ -146,13 +110,13 @@ void check_position(const Recording& r, RowOrder order, Problems& problems) {
   for (std::size_t i = 0; i < r.rows(); ++i) {
     const double p = position->values[i];
     if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
-      problems.add(at(r, i, "position"), fmt::format("the position is {}", p),
+      problems.add(place_in(r, i, "position"), fmt::format("the position is {}", p),
                    "a whole number from 1 on",
                    "Give the number of the plan's position, or say in [recording] of the study "
                    "file which is which: positions = { \"NUMBER IN THE FILE\" = NUMBER IN THE "
                    "PLAN, ... }, 0 where it is turned between two positions");
     } else if (p < last && order == RowOrder::known) {
-      problems.add(at(r, i, "position"), fmt::format("position {} comes after {}", p, last),
+      problems.add(place_in(r, i, "position"), fmt::format("position {} comes after {}", p, last),
                    "positions in the order of the plan",
                    "Number the positions in the order they were held, or say in [recording] of the "
                    "study file which position of the plan each is: positions = { \"NUMBER IN THE "
@@ -168,8 +132,8 @@ void check_phase(const Recording& r, Problems& problems) {
   if (!phase) return;
   for (std::size_t i = 0; i < r.rows(); ++i)
     if (const double p = phase->values[i]; !(p == 0.0 || p == 1.0))
-      problems.add(at(r, i, "phase"), fmt::format("the phase is {}", p), "0 (dwell) or 1 (slew)",
-                   "Correct the phase");
+      problems.add(place_in(r, i, "phase"), fmt::format("the phase is {}", p),
+                   "0 (dwell) or 1 (slew)", "Correct the phase");
 }
 
 void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
@@ -185,11 +149,12 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       const double x = c.values[i];
       if (std::isinf(x))
-        problems.add(at(r, i, c.name), "the value is infinite", "a finite number",
+        problems.add(place_in(r, i, c.name), "the value is infinite", "a finite number",
                      "Leave the cell empty (nan) if it was not measured");
       else if (std::abs(x) > most)
         problems.add(
-            at(r, i, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
+            place_in(r, i, c.name),
+            fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
             fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
             fmt::format("Check the unit and the export{}; if it stands for not measured, say in "
                         "[recording] of the study file missing = [{:g}]",
@@ -199,8 +164,8 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
                             : "",
                         x / c.unit.to_si));
       if (std::isnan(x) && command)
-        problems.add(at(r, i, c.name), "the command is missing", "the commanded rate in every row",
-                     "Give the command, 0 if there was none");
+        problems.add(place_in(r, i, c.name), "the command is missing",
+                     "the commanded rate in every row", "Give the command, 0 if there was none");
       measured = measured || (sensor && std::isfinite(x));
     }
   }
@@ -231,11 +196,6 @@ bool equal_lengths(const RawRecording& raw, Problems& problems) {
 }
 
 }  // namespace
-
-bool begins_again_at_midnight(double before, double after) {
-  constexpr double day = 86400.0, hour = 3600.0;
-  return before <= day && before > day - hour && after >= 0.0 && after < hour;
-}
 
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems) {

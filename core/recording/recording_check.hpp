@@ -16,8 +16,4 @@ namespace drift {
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems);
 
-/// Whether a step back in time [s] may be that of a clock of 24 hours: over midnight within an
-/// hour.
-bool begins_again_at_midnight(double before, double after);
-
 }  // namespace drift

@@ -9,7 +9,7 @@
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
-#include "core/recording/recording_check.hpp"
+#include "core/recording/rows/check_time.hpp"
 
 namespace drift {
 namespace {

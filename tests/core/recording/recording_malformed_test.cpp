@@ -34,6 +34,10 @@ std::vector<Case> cases() {
   using namespace std::string_literals;
   std::string many = header;
   for (int i = 0; i < 200; ++i) many += "x,1,0,0,0,0\n";
+  // Two rows in every minute but one: what is written tells no even distance.
+  std::string minutes = header;
+  for (int i = 0; i < 80; ++i)
+    if (i != 31) minutes += fmt::format("{},1,{},0,0,0\n", 60 * (i / 2), 1e-3 * i);
   std::string facts;
   for (int i = 0; i < 1001; ++i) facts += "# k" + std::to_string(i) + " = 1\n";
   return {
@@ -47,6 +51,7 @@ std::vector<Case> cases() {
       {"TimeNan", header + "nan,1,0,0,0,0\n", ":2:time:", "missing", "a number in every row"},
       {"TimeInfinite", header + "1,1,0,0,0,0\ninf,1,0,0,0,0\n", ":3:time:", "infinite", "finite"},
       {"TimeRepeats", header + "1,1,0,0,0,0\n1,1,0,0,0,0\n", ":3:time:", "repeats", "increase"},
+      {"TimeTooCoarse", minutes, ":3:time:", "the times of 39 of 79 rows", "tell the rows apart"},
       {"TimeReversed", header + "5,1,0,0,0,0\n4,1,0,0,0,0\n", ":3:time:", "4 s comes after 5 s",
        "increase"},
       {"TimeWraps", header + "9,1,0,0,0,0\n10,1,0,0,0,0\n0.5,1,0,0,0,0\n", ":4:time:", "at 3",

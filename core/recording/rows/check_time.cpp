@@ -1,0 +1,73 @@
+#include "core/recording/rows/check_time.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace drift {
+namespace {
+
+/// Whether so many rows have the time of the row before that none was written twice: the time is
+/// too coarse. Said once.
+bool report_shared_times(const Recording& r, const Channel& time, Problems& problems) {
+  constexpr std::size_t few = 10;  // rows that may have been written twice, however short the log
+  constexpr double many = 0.25;    // of all rows: every second one shares a minute at 30 s
+  std::size_t shared = 0, first = 0;
+  for (std::size_t i = 1; i < r.rows(); ++i)
+    if (time.values[i] == time.values[i - 1] && ++shared == 1) first = i;
+  if (shared < few || static_cast<double>(shared) < many * static_cast<double>(r.rows()))
+    return false;
+  problems.add(
+      place_in(r, first, "time"),
+      fmt::format("{} s repeats {} s at {}, and so do the times of {} of {} rows",
+                  time.values[first], time.values[first], r.lines[first - 1], shared, r.rows()),
+      "times that tell the rows apart",
+      "Log finer times (seconds, where minutes are written): as coarse as these they are read only "
+      "where rows are evenly spaced and none is lost or written twice");
+  return true;
+}
+
+}  // namespace
+
+std::string place_in(const Recording& r, std::size_t row, std::string_view column) {
+  return fmt::format("{}:{}", r.lines[row], column);
+}
+
+bool begins_again_at_midnight(double before, double after) {
+  constexpr double day = 86400.0, hour = 3600.0;
+  return before <= day && before > day - hour && after >= 0.0 && after < hour;
+}
+
+void check_time(const Recording& r, Problems& problems) {
+  const Channel* time = r.find("time");
+  if (!time || report_shared_times(r, *time, problems)) return;
+  double last = -HUGE_VAL;
+  std::size_t last_row = 0;
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    const double t = time->values[i];
+    if (std::isnan(t)) {
+      problems.add(place_in(r, i, "time"), "the time is missing", "a number in every row",
+                   "Give the time");
+    } else if (!(t > last)) {
+      problems.add(
+          place_in(r, i, "time"),
+          fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
+                      r.lines[last_row]),
+          "time to increase from row to row",
+          begins_again_at_midnight(last, t)
+              ? "If this is a clock that begins again at midnight, read it as a counter in "
+                "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
+                "and wrap = 86400000, or what a count is, and how many make a day"
+              : "Remove rows that were written twice; if a clock begins again here (in each "
+                "position, in autumn, where a counter is full), write times that go on, or read it "
+                "as a counter of [recording]; sort only rows that are out of order");
+      if (begins_again_at_midnight(last, t)) last = -HUGE_VAL;  // said once
+    }
+    if (t > last) {
+      last = t;
+      last_row = i;
+    }
+  }
+}
+
+}  // namespace drift
