@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "core/recording/own/clock.hpp"
 #include "core/recording/own/csv_cells.hpp"
@@ -72,7 +74,12 @@ void GuessPosition::look_at_row(const std::vector<std::string_view>& cells) {
   for (Candidate& c : candidates_) {
     if (!c.may_be) continue;
     const std::string_view label = cells[c.column];
-    if (c.stretches.empty() || c.stretches.back().label != label) c.may_be = begin(c, label);
+    if (named_ && !(cell_number(label) >= 0.0)) {  // a text, nothing, -1: it may be turned
+      c.turned = true;
+      continue;
+    }
+    if (std::exchange(c.turned, false) || c.stretches.empty() || c.stretches.back().label != label)
+      c.may_be = begin(c, label);
     if (!c.may_be) {
       c.stretches = {};
       continue;
@@ -127,7 +134,12 @@ void GuessPosition::name_channel(GuessedFile& file) const {
     if (labels.size() > PositionLimits::most_labels) return;
     const bool of_no_plan = *c.labels.begin() < 1.0 || *c.labels.rbegin() > most;
     GuessedColumn& column = file.columns[c.column];
-    (of_no_plan ? column.words : column.numbered) = std::move(labels);
+    if (of_no_plan) {  // a text beside them says that it is turned
+      std::ranges::copy(column.words, std::back_inserter(labels));
+      column.words = std::move(labels);
+    } else {
+      column.numbered = std::move(labels);
+    }
     return;
   }
   std::vector<const Candidate*> found;

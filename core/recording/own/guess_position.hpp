@@ -47,6 +47,7 @@ class GuessPosition {
     std::vector<Stretch> stretches;
     std::set<double> labels;
     bool may_be = true;
+    bool turned = false;  ///< the row before is of no position
   };
 
   static bool begin(Candidate& candidate, std::string_view label);

@@ -99,6 +99,12 @@ TEST(GuessPosition, ATextThatComesBackBetweenPositionsIsNone) {
       << "a position to return to";
   EXPECT_EQ(mapping(guess("Lage", between({"1", "0", "2", "0", "3"}), 5)), "Lage");
   EXPECT_EQ(mapping(guess("Lage", between({"1", "1", "0", "2", "2"}), 5)), "Lage");
+  // Numbers that no plan has are listed beside rows of no position, too: 0 is the first one then.
+  EXPECT_EQ(mapping(guess("Lage", between({"0", "dreht", "1", "dreht", "2"}), 5)),
+            "Lage 0=1 1=2 2=3 dreht=0");
+  EXPECT_EQ(mapping(guess("Lage", between({"0", "-1", "1", "-1", "2"}), 5)), "Lage 0=1 1=2 2=3");
+  EXPECT_EQ(mapping(guess("Lage", between({"10", "-1", "20", "-1", "30"}), 5)),
+            "Lage 10=1 20=2 30=3");
 }
 
 }  // namespace
