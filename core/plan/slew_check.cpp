@@ -88,6 +88,19 @@ class Slews {
     return stats::upper_median(std::move(all));
   }
 
+  /// How many turns that were otherwise are as these commands have them; none if one that was as
+  /// commanded no longer is. What a slew leaves of a row at its ends no other sign puts right.
+  std::size_t mended_by(const Mixup& commands) const {
+    std::size_t mended = 0;
+    for (const Turn& t : turns_) {
+      const bool before = mismatch(t, {}, {}) < same_turn,
+                 now = mismatch(t, commands, {}) < same_turn;
+      if (before && !now) return 0;
+      mended += !before && now;
+    }
+    return mended;
+  }
+
  private:
   const Recording& recording_;
   const Site& site_;
@@ -120,10 +133,19 @@ std::optional<RowMistake> slew_mistake(const Recording& recording, const Timelin
                                        bool gimbals_as_planned) {
   const Slews slews(recording, timeline);
   const std::vector<Turn>& turns = slews.turns();
-  if (turns.size() < fewest_turns || slews.usual_mismatch({}, {}) < same_turn) return std::nullopt;
+  if (turns.size() < fewest_turns) return std::nullopt;
   const auto wrong = [&](const Turn& t) { return !(slews.mismatch(t, {}, {}) < same_turn); };
-  const std::size_t first = std::ranges::find_if(turns, wrong)->row;
+  const auto found = std::ranges::find_if(turns, wrong);
+  if (found == turns.end()) return std::nullopt;
+  const std::size_t first = found->row;
   const std::string all = "in slews the platform turned as commanded";
+  if (slews.usual_mismatch({}, {}) < same_turn) {
+    // Most turns may be about other axes than that of the column that is wrong.
+    const auto mends =
+        the_one_mixup([&](const Mixup& m) { return slews.mended_by(m) >= fewest_turns; });
+    if (!mends) return std::nullopt;
+    return RowMistake{first, mixup_text(*mends, command_channels, all)};
+  }
   const auto of_commands =
       the_one_mixup([&](const Mixup& m) { return slews.usual_mismatch(m, {}) < same_turn; });
   const auto of_gimbals = the_one_mixup([&](const Mixup& m) {

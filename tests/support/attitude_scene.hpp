@@ -20,8 +20,9 @@ struct AttitudeScene {
   TestPlan plan;
   Recording recording;
 
-  explicit AttitudeScene(const char* preset = "twelve")
-      : plan(preset_plan(preset, PlanDefaults{}).value()) {
+  /// dwell [s]
+  explicit AttitudeScene(const char* preset = "twelve", double dwell = PlanDefaults{}.dwell)
+      : plan(preset_plan(preset, PlanDefaults{.dwell = dwell}).value()) {
     const Timeline timeline = lay_out(plan, harbin);
     Measurements m{Mat3X(3, timeline.intervals.size()), Mat3X(3, timeline.intervals.size())};
     for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {

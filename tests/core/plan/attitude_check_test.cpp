@@ -51,6 +51,21 @@ TEST(AttitudeCheck, NamesThemWhereThePlatformIsSlewedFromPositionToPosition) {
   }
 }
 
+TEST(AttitudeCheck, ACommandThatFewSlewsFollowIsToldByThese) {
+  // In twelve slews an axis is turned about by a third of the turns: the median knows nothing of
+  // it.
+  for (const double dwell : {600.0, 1200.0, 1800.0}) {
+    EXPECT_TRUE(Scene("slew12", dwell).mistakes().empty()) << dwell;
+    for (const char* name : {"cmd_x", "cmd_y", "cmd_z"}) {
+      Scene s("slew12", dwell);
+      s.reverse(name);
+      const auto wrong = s.mistakes();
+      ASSERT_EQ(wrong.size(), 1u) << name << " " << dwell;
+      expect_part(wrong.front().text, fmt::format("column {}: the sign is wrong", name).c_str());
+    }
+  }
+}
+
 TEST(AttitudeCheck, ASlewThatTurnsOtherwiseThanCommandedIsOfCommandsOrGimbals) {
   using Names = std::pair<const char*, const char*>;
   const auto said = [](const auto& spoil) {
