@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_names.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
@@ -53,7 +55,9 @@ std::string by_size(const GuessedColumn& c, const Unit& stated, const std::strin
 /// Whether a text in the column of positions says that it is turned: the only one that comes back,
 /// or the only one beside numbers. One that is the first may be a position to return to.
 bool is_turned(const GuessedColumn& c, const std::string& word) {
-  if (c.again.empty()) return c.texts > 0 && c.numbers > 0 && c.words.size() == 1;
+  const auto is_text = [](const std::string& w) { return std::isnan(cell_number(w)); };
+  if (c.again.empty())
+    return c.numbers > 0 && is_text(word) && std::ranges::count_if(c.words, is_text) == 1;
   return c.again.size() == 1 && c.again.contains(word) && c.words.front() != word;
 }
 
