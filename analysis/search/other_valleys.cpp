@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/inference/thresholds.hpp"
 
@@ -31,20 +30,6 @@ std::size_t top_from(const std::vector<double>& evidence, std::size_t v) {
 }
 
 }  // namespace
-
-std::vector<double> evidence_of_settings(const Fitted& nominal, const Explanation& choices,
-                                         std::size_t which) {
-  const std::size_t k = choices[which].candidate;
-  Explanation tried = choices;
-  std::vector<double> evidence;
-  for (std::size_t v = 0; v < nominal.set.candidates[k].variants.size(); ++v) {
-    tried[which].variant = v;
-    evidence.push_back(nominal.contrasts[k][v].dof == 0
-                           ? -std::numeric_limits<double>::infinity()
-                           : log_bayes(nominal.projected, distinct_columns_of(nominal.set, tried)));
-  }
-  return evidence;
-}
 
 std::vector<SettingFound> settings_found(const Fitted& nominal, const Refit& r) {
   std::vector<SettingFound> found;
@@ -80,13 +65,9 @@ std::vector<Explanation> other_valleys(const Fitted& nominal, const Refit& r) {
     });
     const std::size_t own =
         top_from(evidence, static_cast<std::size_t>(nearest - c.variants.begin()));
-    const double best = std::ranges::max(evidence);
-    std::vector<std::size_t> tops;
-    for (std::size_t v = 0; v < evidence.size(); ++v)
-      if (v != own && top_from(evidence, v) == v &&
-          evidence[v] >= best - ReachLimits::refine_setting)
-        tops.push_back(v);
-    std::ranges::stable_sort(tops, std::greater{}, [&](std::size_t v) { return evidence[v]; });
+    std::vector<std::size_t> tops =
+        best_of(evidence, ReachLimits::refine_setting, EffortLimits::settings + 1);
+    std::erase(tops, own);
     if (tops.size() > EffortLimits::settings) tops.resize(EffortLimits::settings);
     for (const std::size_t v : tops) {
       others.push_back(r.choices);

@@ -20,9 +20,4 @@ bool same_valley(const Fitted& nominal, const Refit& a, const Refit& b);
 /// The continuous settings that a fit found.
 std::vector<SettingFound> settings_found(const Fitted& nominal, const Refit& r);
 
-/// Log evidence of simultaneous causes at every variant of choices[which], the others as they are;
-/// what cannot be seen has none (-infinity).
-std::vector<double> evidence_of_settings(const Fitted& nominal, const Explanation& choices,
-                                         std::size_t which);
-
 }  // namespace drift::search

@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
@@ -14,7 +13,8 @@
 namespace drift::search {
 namespace {
 
-constexpr int between = 3;  // settings put between each two points
+constexpr int between = 3;       // settings put between each two points
+constexpr int parts_about = 16;  // of a cell about a setting that was found
 
 /// Time constants, periods and moments are spread by factors.
 double part_of_the_way(double a, double b, double part) {
@@ -64,20 +64,21 @@ bool same_but(const inference::Variant& a, const inference::Variant& b, std::siz
   return true;
 }
 
-/// Puts settings between variants `v` and `v + 1`; each of them hands over the nearer part of its
-/// chance.
-void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& columns) {
+/// Puts so many settings between variants `v` and `v + 1`; each of these hands over the nearer part
+/// of its chance.
+void fill(inference::Candidate& c, std::size_t v, int settings, std::size_t place,
+          Columns& columns) {
   const inference::Variant low = c.variants[v], high = c.variants[v + 1];
-  constexpr double kept = 0.5 + 0.5 / (between + 1);  // half lies on the other side
+  const double kept = 0.5 + 0.5 / (settings + 1);  // half lies on the other side
   c.variants[v].share *= kept;
   c.variants[v + 1].share *= kept;
   std::vector<inference::Variant> more;
-  for (int k = 1; k <= between; ++k) {
+  for (int k = 1; k <= settings; ++k) {
     inference::Variant one = low;
     one.settings[place].second = part_of_the_way(low.settings[place].second,
-                                                 high.settings[place].second, k / (between + 1.0));
+                                                 high.settings[place].second, k / (settings + 1.0));
     one.columns = columns.of(c, low, place, one.settings[place].second);
-    one.share = (1.0 - kept) * (low.share + high.share) / between;
+    one.share = (1.0 - kept) * (low.share + high.share) / settings;
     one.between = true;
     more.push_back(std::move(one));
   }
@@ -85,15 +86,16 @@ void fill(inference::Candidate& c, std::size_t v, std::size_t place, Columns& co
                     more.end());
 }
 
-/// Gaps of a candidate's grid, from above, so that those below stay where they are.
-using Gaps = std::set<std::size_t, std::greater<>>;
+/// Gaps of a candidate's grid and how many settings are put into each, from above, so that those
+/// below stay where they are.
+using Gaps = std::map<std::size_t, int, std::greater<>>;
 
 Gaps beside_best_settings(const Fitted& e, std::size_t k) {
   Gaps gaps;
   for (const std::size_t v : best_settings(e, k, inference::ReachLimits::refine_setting,
                                            inference::EffortLimits::settings)) {
-    if (v + 1 < e.set.candidates[k].variants.size()) gaps.insert(v);
-    if (v > 0) gaps.insert(v - 1);
+    if (v + 1 < e.set.candidates[k].variants.size()) gaps[v] = between;
+    if (v > 0) gaps[v - 1] = between;
   }
   return gaps;
 }
@@ -102,13 +104,12 @@ Gaps between_points(const Fitted& e, std::size_t k) {
   const auto& variants = e.set.candidates[k].variants;
   Gaps gaps;
   for (std::size_t v = 0; v + 1 < variants.size(); ++v)
-    if (!variants[v].between && !variants[v + 1].between) gaps.insert(v);
+    if (!variants[v].between && !variants[v + 1].between) gaps[v] = between;
   return gaps;
 }
 
-/// The gaps within the cells of the library's grid about a value and the cells beside it, as long
-/// as they are wider than `parts` of a cell.
-Gaps about(const inference::Candidate& c, std::size_t place, double value, int parts) {
+/// The gaps of the cells of the library's grid about a value and of the cells beside it.
+Gaps about(const inference::Candidate& c, std::size_t place, double value) {
   std::vector<std::size_t> grid;
   for (std::size_t v = 0; v < c.variants.size(); ++v)
     if (!c.variants[v].between) grid.push_back(v);
@@ -118,8 +119,9 @@ Gaps about(const inference::Candidate& c, std::size_t place, double value, int p
       return c.variants[grid[std::min(point, grid.size() - 1)]].settings[place].second;
     };
     const bool near = at(cell > 0 ? cell - 1 : 0) <= value && value <= at(cell + 2);
-    if (near && grid[cell + 1] - grid[cell] < static_cast<std::size_t>(parts))
-      for (std::size_t v = grid[cell]; v < grid[cell + 1]; ++v) gaps.insert(v);
+    const int parts = static_cast<int>(grid[cell + 1] - grid[cell]);
+    for (std::size_t v = grid[cell]; v < grid[cell + 1] && near && parts < parts_about; ++v)
+      gaps[v] = parts_about / parts - 1;
   }
   return gaps;
 }
@@ -131,8 +133,8 @@ Fitted refined(Fitted e, const MeasuredTest& test, double least_log_bayes, GapsO
     inference::Candidate& c = e.set.candidates[k];
     const auto place = continuous_setting(c);
     if (!place || e.scores[k].dof == 0 || e.scores[k].log_bayes < least_log_bayes) continue;
-    for (const std::size_t v : gaps_of(e, k))
-      if (same_but(c.variants[v], c.variants[v + 1], *place)) fill(c, v, *place, columns);
+    for (const auto& [v, settings] : gaps_of(e, k))
+      if (same_but(c.variants[v], c.variants[v + 1], *place)) fill(c, v, settings, *place, columns);
   }
   const auto added = columns.added();
   if (added.empty()) return e;
@@ -168,18 +170,14 @@ Fitted refine_whole_grids(Fitted e, const MeasuredTest& test) {
 }
 
 Fitted refine_about(Fitted e, const MeasuredTest& test, const std::vector<SettingFound>& found) {
-  constexpr int parts = 16;  // of a cell: two rounds
-  for (int round = 0; round < 2; ++round)
-    e = refined(std::move(e), test, -std::numeric_limits<double>::infinity(),
-                [&](const Fitted& now, std::size_t k) {
-                  Gaps gaps;
-                  for (const SettingFound& f : found)
-                    if (f.candidate == k)
-                      gaps.merge(about(now.set.candidates[k],
-                                       *continuous_setting(now.set.candidates[k]), f.value, parts));
-                  return gaps;
-                });
-  return e;
+  return refined(std::move(e), test, -std::numeric_limits<double>::infinity(),
+                 [&](const Fitted& now, std::size_t k) {
+                   const inference::Candidate& c = now.set.candidates[k];
+                   Gaps gaps;
+                   for (const SettingFound& f : found)
+                     if (f.candidate == k) gaps.merge(about(c, *continuous_setting(c), f.value));
+                   return gaps;
+                 });
 }
 
 std::size_t variant_at(const inference::Candidate& candidate, const inference::Settings& settings) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/search/other_valleys.hpp"
+#include "analysis/search/scores/log_sum.hpp"
 
 namespace drift::search {
 

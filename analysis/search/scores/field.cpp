@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "analysis/inference/size_prior.hpp"
@@ -77,18 +78,26 @@ Score score(const Field& field, std::size_t candidate) {
   return best;
 }
 
-std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
-                                       std::size_t most) {
-  const auto& variants = field.set.candidates[candidate].variants;
+std::vector<double> evidence_of_settings(const Field& field, const Explanation& choices,
+                                         std::size_t which) {
+  const std::size_t k = choices[which].candidate;
+  Explanation tried = choices;
   std::vector<double> evidence;
-  for (std::size_t v = 0; v < variants.size(); ++v)
-    evidence.push_back(field.contrasts[candidate][v].dof == 0
-                           ? -1e300
-                           : log_bayes(field.projected, variants[v].columns));
+  for (std::size_t v = 0; v < field.set.candidates[k].variants.size(); ++v) {
+    tried[which].variant = v;
+    evidence.push_back(field.contrasts[k][v].dof == 0
+                           ? -std::numeric_limits<double>::infinity()
+                           : log_bayes(field.projected, distinct_columns_of(field.set, tried)));
+  }
+  return evidence;
+}
+
+std::vector<std::size_t> best_of(const std::vector<double>& evidence, double nearly,
+                                 std::size_t most) {
   const double top = *std::max_element(evidence.begin(), evidence.end());
   std::vector<std::size_t> found;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
-    const bool below_next = v + 1 < variants.size() && evidence[v + 1] > evidence[v];
+  for (std::size_t v = 0; v < evidence.size(); ++v) {
+    const bool below_next = v + 1 < evidence.size() && evidence[v + 1] > evidence[v];
     const bool below_last = v > 0 && evidence[v - 1] >= evidence[v];
     if (!below_next && !below_last && evidence[v] >= top - nearly) found.push_back(v);
   }
@@ -96,6 +105,11 @@ std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate
                    [&](std::size_t a, std::size_t b) { return evidence[a] > evidence[b]; });
   if (found.size() > most) found.resize(most);
   return found;
+}
+
+std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
+                                       std::size_t most) {
+  return best_of(evidence_of_settings(field, {{candidate, 0}}, 0), nearly, most);
 }
 
 VecX expected_amplitudes(const inference::Projected& p, const std::vector<int>& columns) {

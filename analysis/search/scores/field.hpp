@@ -38,14 +38,23 @@ struct Score {
 };
 Score score(const Field& field, std::size_t candidate);
 
-/// Settings of a candidate at which its evidence is no less than beside them and within `nearly` of
-/// the best, best first, at most `most`.
-std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
-                                       std::size_t most);
-
 /// Log evidence of simultaneous causes against the nominal model, amplitudes of unknown size
 /// (size_prior.hpp).
 double log_bayes(const inference::Projected& p, const std::vector<int>& columns);
+
+/// The same at every variant of choices[which], the others as they are; -infinity where it cannot
+/// be seen.
+std::vector<double> evidence_of_settings(const Field& field, const Explanation& choices,
+                                         std::size_t which);
+
+/// Numbers of the settings at which the evidence is no less than beside them and within `nearly` of
+/// the best, best first, at most `most`.
+std::vector<std::size_t> best_of(const std::vector<double>& evidence, double nearly,
+                                 std::size_t most);
+
+/// These of a candidate alone.
+std::vector<std::size_t> best_settings(const Field& field, std::size_t candidate, double nearly,
+                                       std::size_t most);
 
 /// Amplitudes, in prior sigmas, that the linear score expects of some columns: (C + 1)^-1 g, with
 /// the unit prior, so that nothing runs away.

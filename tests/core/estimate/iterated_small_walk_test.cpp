@@ -4,49 +4,15 @@
 #include "core/estimate/sequential/iterated_passes.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
+#include "tests/support/polar_plan.hpp"
 
 namespace drift::iterated_small_walk_test {
 namespace {
 
-/// Accelerometers alone at a pole, with a dead zone of unknown width: what is read hangs on the
-/// attitude as a bent line.
+/// A dead zone of unknown width.
 mc::Study study() {
-  return mc::read_study_text(R"(schema = 1
-[site]
-latitude = "-90 deg"
-[plan]
-mode = "free"
-dwell = "12 min"
-sample = "90 s"
-slew_rate = "2 deg/s"
-[[plan.position]]
-axes = "x=E y=S z=D"
-entry = "caged"
-sample = "180 s"
-dwell = "720 s"
-[[plan.position]]
-axes = "x=S y=E z=U"
-entry = "caged"
-sample = "171 s"
-dwell = "1026 s"
-[[plan.position]]
-axes = "x=W y=D z=S"
-entry = "caged"
-sample = "20 s"
-dwell = "280 s"
-[[plan.position]]
-axes = "x=N y=E z=D"
-entry = "caged"
-sample = "20 s"
-dwell = "200 s"
-[[plan.position]]
-axes = "x=D y=W z=N"
-entry = "torqued"
-sample = "171 s"
-dwell = "1368 s"
-[readout]
-gimbals = false
-accelerometer_noise = "10 ug"
+  return mc::read_study_text(
+      std::string("schema = 1\n") + test::polar_plan + R"(accelerometer_noise = "10 ug"
 [environment]
 temperature = "20 degC"
 temperature_amplitude = "4 degC"
@@ -67,7 +33,7 @@ runs = 12
 seed = 984589
 estimator = "iterated"
 )",
-                             "s.toml");
+      "s.toml");
 }
 
 TEST(IteratedPasses, AWalkThatIsHardlyOneChangesNothing) {

@@ -5,50 +5,14 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/study/sections.hpp"
 #include "tests/mc/small_study.hpp"
+#include "tests/support/polar_plan.hpp"
 
 namespace drift::not_linear_test {
 namespace {
 
-/// Accelerometers alone at a pole: misalignments are seen through their product with drifts that
-/// are not.
 std::string at_the_pole(std::string_view noise) {
-  return fmt::format(R"(schema = 1
-title = "pole"
-[site]
-latitude = "-90 deg"
-[plan]
-mode = "free"
-dwell = "12 min"
-sample = "90 s"
-slew_rate = "2 deg/s"
-[[plan.position]]
-axes = "x=E y=S z=D"
-entry = "caged"
-sample = "180 s"
-dwell = "720 s"
-[[plan.position]]
-axes = "x=S y=E z=U"
-entry = "caged"
-sample = "171 s"
-dwell = "1026 s"
-[[plan.position]]
-axes = "x=W y=D z=S"
-entry = "caged"
-sample = "20 s"
-dwell = "280 s"
-[[plan.position]]
-axes = "x=N y=E z=D"
-entry = "caged"
-sample = "20 s"
-dwell = "200 s"
-[[plan.position]]
-axes = "x=D y=W z=N"
-entry = "torqued"
-sample = "171 s"
-dwell = "1368 s"
-[readout]
-gimbals = false
-accelerometer_noise = "{}"
+  return std::string("schema = 1\ntitle = \"pole\"\n") + test::polar_plan +
+         fmt::format(R"(accelerometer_noise = "{}"
 [truth]
 coupling = "eq6"
 terms = ["fixed_drift", "g_drift", "gyro_misalignment"]
