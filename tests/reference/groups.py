@@ -187,6 +187,8 @@ def of_cause(at, cause):
     for p in cause["parameters"]:
         yield Number(f"{at}.{p['key']}", real(p["value"]), "size", p["unit"], p["sigma"] or 0.0)
         yield Number(f"{at}.{p['key']}.sigma", real(p["sigma"]), "size_sigma", p["unit"])
+        for end, value in zip(("low_95", "high_95"), p.get("interval_95") or ()):  # by refits
+            yield Number(f"{at}.{p['key']}.{end}", real(value), "size", p["unit"], p["sigma"] or 0.0)
 
 
 def name_of_cause(cause):
