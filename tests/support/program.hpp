@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -63,8 +64,8 @@ class ScratchFolder {
   std::string path() const { return path_.string(); }
 
  private:
-  static int& made() {
-    static int count = 0;
+  static std::atomic<int>& made() {
+    static std::atomic<int> count = 0;
     return count;
   }
   std::filesystem::path path_;

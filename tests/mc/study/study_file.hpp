@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -15,7 +16,7 @@ namespace drift::test {
 class StudyFile {
  public:
   explicit StudyFile(const std::string& text) {
-    static int count = 0;
+    static std::atomic<int> count = 0;  // tests read studies on several threads
     folder_ = std::filesystem::temp_directory_path() /
               ("driftscope_study_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(folder_);
