@@ -98,6 +98,16 @@ std::vector<std::size_t> heads_of(const Fitted& e, const std::vector<Refit>& goo
   return head;
 }
 
+/// Fits of the same causes at several settings each have the evidence of all of them: one counts.
+void count_once(const std::vector<Refit>& good, const std::vector<std::size_t>& order,
+                std::vector<double>& weight) {
+  for (auto k = order.begin(); k != order.end(); ++k)
+    if (std::any_of(order.begin(), k, [&](std::size_t heavier) {
+          return same_causes(good[heavier].choices, good[*k].choices);
+        }))
+      weight[*k] = 0.0;
+}
+
 /// Of fits of the same causes that ended in several valleys of a setting (other_valleys.hpp), the
 /// one of least cost: what evidence adds for the width of a valley, by the curvature of its rows,
 /// is too much where the cost bends more than these say.
@@ -153,9 +163,11 @@ CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {
   std::vector<double> weight;
   for (const Refit& r : good) weight.push_back(log_weight(e, r));
   const double top = good.empty() ? 0.0 : std::ranges::max(weight);
-  double sum = 0.0;
-  for (double& w : weight) sum += w = std::exp(w - top);
-  const std::vector<std::size_t> head = heads_of(e, good, by_weight(weight));
+  for (double& w : weight) w = std::exp(w - top);
+  const std::vector<std::size_t> order = by_weight(weight);
+  const std::vector<std::size_t> head = heads_of(e, good, order);
+  count_once(good, order, weight);
+  const double sum = std::accumulate(weight.begin(), weight.end(), 0.0);
   std::vector<double> together(good.size(), 0.0);
   for (std::size_t k = 0; k < good.size(); ++k) together[head[k]] += weight[k] / sum;
   for (std::size_t k = 0; k < good.size(); ++k)
@@ -169,7 +181,10 @@ CredibleSet weigh(const Fitted& e, std::vector<Refit> refits, double credible) {
     }
     const bool listed = held < credible;
     held += together[k];
-    if (listed) out.probability.push_back(together[k]);
+    if (listed)
+      out.probability.push_back(together[k]);
+    else
+      out.unlisted.push_back({good[k].choices, together[k]});
     (listed ? out.sets : out.beside).push_back(std::move(good[k]));
   }
   return out;

@@ -23,17 +23,25 @@ std::vector<std::size_t> heaviest_within(const Fitted& e, const std::vector<Refi
 /// Whether an explanation has been fitted.
 bool is_among(const std::vector<Refit>& refits, const Explanation& in);
 
+/// An explanation that is not needed to hold the probability `credible`.
+struct Unlisted {
+  Explanation choices;
+  double probability = 0.0;
+};
+
 /// Explanations weighed against each other.
 struct CredibleSet {
   std::vector<Refit> sets;          ///< most probable first; each may hold several causes
   std::vector<double> probability;  ///< of each
   std::vector<Refit> rejected;      ///< those that leave what is no chance
   std::vector<Refit> beside;        ///< all others
+  std::vector<Unlisted> unlisted;   ///< of these what stands for nothing else, most probable first
 };
 
 /// Weighs explanations by evidence and prior; those up to the probability `credible` are kept. Of
 /// several with one name the best stands for all (of the same causes with a setting in several
-/// valleys the fit of least cost), and what says more is left out where less will do.
+/// valleys the fit of least cost; each has the evidence of all settings, so the heaviest counts),
+/// and what says more is left out where less will do.
 ///
 /// Adequate ones and those whose leftover may be chance compete alike, the latter at the price of
 /// that chance: a far better explanation beside which something unrelated is just significant must

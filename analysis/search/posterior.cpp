@@ -53,8 +53,8 @@ double log_evidence(const Search& found, const Refit& r, const inference::NoiseM
   return r.log_bayes - (r.after.log_evidence() - found.nominal.log_evidence()) + noise.either();
 }
 
-/// Those of the credible set, which share their evidence as it weighs them: members of a family
-/// count together there.
+/// Those of the credible set and what stands beside it, which share their evidence as it weighs
+/// them: members of a family count together there.
 std::vector<Evidence::Weighed> explanations(const Search& found, const LibraryPrior& prior,
                                             const inference::NoiseModel& declared) {
   std::vector<Evidence::Weighed> all;
@@ -72,6 +72,8 @@ std::vector<Evidence::Weighed> explanations(const Search& found, const LibraryPr
   }
   for (std::size_t k = 0; k < sets.size(); ++k)
     all.push_back({sets[k].choices, evidence + std::log(probability[k] / share)});
+  for (const Unlisted& other : found.unlisted)
+    all.push_back({other.choices, evidence + std::log(other.probability / share)});
   return all;
 }
 

@@ -8,6 +8,7 @@
 #include "analysis/inference/size_prior.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fit_causes.hpp"
+#include "analysis/search/settings_alike.hpp"
 #include "analysis/search/settle_noise.hpp"
 
 namespace drift::search {
@@ -15,15 +16,6 @@ namespace {
 
 using inference::EffortLimits;
 using inference::WeighLimits;
-
-/// Points of the library's grid at which a candidate can be seen at all.
-double grid_points(const Fitted& e, std::size_t candidate) {
-  const auto& variants = e.set.candidates[candidate].variants;
-  std::size_t n = 0;
-  for (std::size_t v = 0; v < variants.size(); ++v)
-    n += !variants[v].between && e.contrasts[candidate][v].dof > 0;
-  return static_cast<double>(std::max<std::size_t>(1, n));
-}
 
 /// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
 /// lambda is no amplitude: it lies between 0 and 1. library: the filter with the library's priors.
@@ -117,13 +109,6 @@ bool is_another_equation(Coupling nominal, const BatchResult& fit) {
                              WeighLimits::other_lambda * p->sigma;
 }
 
-/// Each variant of a grid was one try; the refit took the best of them.
-double log_tries(const Fitted& nominal, const std::vector<Choice>& choices) {
-  double sum = 0.0;
-  for (const Choice& choice : choices) sum += std::log(grid_points(nominal, choice.candidate));
-  return sum;
-}
-
 }  // namespace
 
 NoiseKinds noise_beside(const Fitted& nominal) {
@@ -177,8 +162,8 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
     r.after.look_for_unknown_inputs();
     r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / r.after.lone.p_value));
   }
-  r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() -
-                log_tries(b.nominal, r.choices) - causes.narrowed +
+  r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() +
+                log_share_of_settings(b.nominal, r.choices) - causes.narrowed +
                 gain_of_sizes(b.nominal.set, causes.filter, r);
   if (causes.expected.lambda_among_them)
     r.log_bayes += r.after.log_gain_of_misalignments() - b.nominal.log_gain_of_misalignments();

@@ -220,7 +220,8 @@ void add_other_valleys(Search& s, const MeasuredTest& test, std::vector<Refit>& 
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
-  Search out{detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}, {}, {}, never};
+  Search out{
+      detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}, {}, {}, {}, never};
   if (out.significant)
     out.nominal = refine_grids(std::move(out.nominal), test, ReachLimits::worth_refining);
   look_at_remainders(out);
@@ -237,6 +238,7 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
     out.probability = std::move(weighed.probability);
     out.rejected = std::move(weighed.rejected);
     out.beside = std::move(weighed.beside);
+    out.unlisted = std::move(weighed.unlisted);
     return true;
   };
   const auto try_more = [&](std::vector<Explanation> more) {

@@ -14,6 +14,7 @@ struct Search : Detection {
   bool just_not = false;            ///< none of the sets is adequate; what they leave may be chance
   std::vector<Refit> rejected;      ///< the most probable ones that leave something significant
   std::vector<Refit> beside;        ///< those that leave nothing and are not in the credible set
+  std::vector<Unlisted> unlisted;   ///< of these what stands for nothing else
   std::vector<Remainder> linear;    ///< of every single candidate, from the linearised test
   /// Sets and their probabilities where something outside the library is so much more probable that
   /// none of them is given: then there are no sets.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "analysis/inference/size_prior.hpp"
 #include "analysis/search/scores/library_prior.hpp"
 #include "analysis/search/scores/log_sum.hpp"
+#include "analysis/search/settings_alike.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::search {
@@ -49,11 +51,11 @@ class NoiseOrEffects {
   NoiseOrEffects(const Fitted& e, std::size_t tries)
       : e_(e), tries_(tries), declared_(declared_noise(e.filter)), prior_(e.set) {}
 
-  /// Of what is in the mean: prior, and settings that were tried.
+  /// Of what is in the mean: prior, and all settings by what they have of the evidence of this one.
   double log_prior(const Explanation& in) const {
     if (in.empty()) return std::log(PosteriorPrior::nothing);
     double sum = std::log(PosteriorPrior::library) + prior_.log_of(in);
-    for (const Choice& c : in) sum += log_share(c);
+    for (const Choice& c : in) sum += log_settings_.at({c.candidate, c.variant});
     return sum;
   }
 
@@ -164,10 +166,10 @@ class NoiseOrEffects {
   }
 
  private:
-  /// A model counts once, with the better of its noises.
+  /// Causes count once, with the better of their noises and settings.
   void remember(const Explanation& in, double log_weight) {
     const auto at =
-        std::ranges::find_if(met_, [&](const auto& other) { return same(other.first, in); });
+        std::ranges::find_if(met_, [&](const auto& other) { return same_causes(other.first, in); });
     if (at == met_.end())
       met_.emplace_back(in, log_weight);
     else
@@ -179,16 +181,9 @@ class NoiseOrEffects {
     return at == all.end() ? nullptr : &*at;
   }
 
-  double log_share(const Choice& c) const {
-    const auto& variants = e_.set.candidates[c.candidate].variants;
-    double whole = 0.0;
-    for (const inference::Variant& v : variants) whole += v.share;
-    return std::log(variants[c.variant].share / whole);
-  }
-
   /// With the candidate, each at its best setting, that gains most by the linearised test under the
   /// noise of a model, and the next best.
-  std::vector<Explanation> additions(const Model& m) const {
+  std::vector<Explanation> additions(const Model& m) {
     struct Try {
       Choice choice;
       double gain;
@@ -199,14 +194,10 @@ class NoiseOrEffects {
     for (std::size_t k = 0; k < e_.set.candidates.size(); ++k) {
       const inference::Candidate& c = e_.set.candidates[k];
       if (of_a_chosen_family(e_.set, m.in, c) || c.term == closure_term) continue;
-      Try best{{k, 0}, never};
-      for (std::size_t v = 0; v < c.variants.size(); ++v) {
-        const inference::Projected p = projector.candidates(c.variants[v].columns);
-        const double gain = inference::log_evidence_of_sizes(p.C, p.g) + prior_.log_of({{k, v}}) +
-                            log_share({k, v});
-        if (gain > best.gain) best = {{k, v}, gain};
-      }
-      all.push_back(best);
+      const BestSetting best = best_setting(e_.set, projector, k);
+      const Choice choice{k, best.variant};
+      log_settings_.try_emplace({k, best.variant}, best.log_all_against_this);
+      all.push_back({choice, best.log_evidence + prior_.log_of({choice})});
     }
     std::ranges::stable_sort(all, std::greater{}, &Try::gain);
     std::vector<Explanation> out;
@@ -232,6 +223,9 @@ class NoiseOrEffects {
   std::size_t tries_;
   inference::NoiseModel declared_;
   LibraryPrior prior_;
+  /// Of candidates and settings: log evidence over all settings against that of this one, under
+  /// the noise with which it was first seen.
+  std::map<std::pair<std::size_t, std::size_t>, double> log_settings_;
   std::vector<Model> white_, driven_;  ///< estimated already
   std::vector<std::pair<Explanation, double>> met_;
 };

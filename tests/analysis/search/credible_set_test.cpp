@@ -67,6 +67,34 @@ TEST(CredibleSet, OfTheValleysOfASettingTheDeepestIsStated) {
   EXPECT_EQ(c.out.beside[0].choices[0].variant, 0u);
 }
 
+TEST(CredibleSet, FitsAtSeveralSettingsAreOneExplanationAndNotTwo) {
+  Case c;
+  const auto step = c.candidate("mass_unbalance_step", "z", {param("dD_I_z")});
+  c.e.set.candidates[step].variants.resize(2);
+  const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
+  c.explanation(step, 30.0, -1.0);
+  c.explanation(step, 30.0, -1.0);
+  c.refits[1].choices[0].variant = 1;
+  c.explanation(gimbal, 30.0, -1.0);
+  c.weigh();
+  ASSERT_EQ(c.out.sets.size(), 2u);
+  EXPECT_NEAR(c.out.probability[0], 0.5, 1e-12);
+  EXPECT_NEAR(c.out.probability[1], 0.5, 1e-12);
+}
+
+TEST(CredibleSet, WhatIsNotListedKeepsItsProbability) {
+  Case c;
+  const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});
+  const auto gimbal = c.candidate("gimbal_angle_drift", "y", {param("G_c_y")});
+  c.explanation(magnetic, 30.0, -1.0);
+  c.explanation(gimbal, 30.0 - std::log(24.0), -1.0);
+  c.weigh();
+  ASSERT_EQ(c.out.sets.size(), 1u);
+  ASSERT_EQ(c.out.unlisted.size(), 1u);
+  EXPECT_EQ(c.out.unlisted[0].choices[0].candidate, gimbal);
+  EXPECT_NEAR(c.out.unlisted[0].probability, 1.0 / 25.0, 1e-12);
+}
+
 TEST(CredibleSet, WhatLeavesFarTooMuchIsNoExplanationHoweverGood) {
   Case c;
   const auto magnetic = c.candidate("magnetic_drift", "x", {param("M_x")});

@@ -61,6 +61,19 @@ TEST(SettleNoise, TwoEffectsTogetherAreNoNoise) {
   EXPECT_GT(s->probability, 0.95);
 }
 
+TEST(SettleNoise, SettingsThatTheTestCannotTellApartAreNoPrice) {
+  const auto probability = [](std::size_t settings) {
+    Fitted e = bench();
+    e.problem.r0 += 0.3 * e.problem.extra.col(1);
+    e.set.candidates[1].variants.resize(settings, e.set.candidates[1].variants.front());
+    const auto s = settled(e);
+    return s ? s->probability : 0.0;
+  };
+  const double of_one = probability(1);
+  EXPECT_GT(of_one, 0.1);
+  EXPECT_NEAR(probability(8), of_one, 1e-9);
+}
+
 /// The residuals of noise alone.
 void draw(Fitted& e, const inference::NoiseModel& noise) {
   Stream random(9, 0, Purpose::test);
