@@ -1,9 +1,11 @@
 #include "analysis/inference/misalignments.hpp"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
 #include "analysis/inference/size_prior.hpp"
+#include "core/physics/closure.hpp"
 
 namespace drift::inference {
 
@@ -18,8 +20,13 @@ double log_gain_of_misalignments(const Layout& layout, const Projector& projecto
     if (is_misalignment(layout.params[k])) rows.push_back(static_cast<Eigen::Index>(k));
   if (rows.empty()) return 0.0;
   const Projector::Fit fit = projector.fit();
-  return log_gain_of_sizes(fit.x(rows), fit.covariance(rows, rows),
-                           std::vector<int>(rows.size(), 0));
+  MatX covariance = fit.covariance(rows, rows);
+  if (const auto at = std::ranges::find(layout.params, closure_param); at != layout.params.end()) {
+    const auto lambda = at - layout.params.begin();
+    const VecX with_lambda = fit.covariance(rows, lambda);
+    covariance -= with_lambda * with_lambda.transpose() / fit.covariance(lambda, lambda);
+  }
+  return log_gain_of_sizes(fit.x(rows), covariance, std::vector<int>(rows.size(), 0));
 }
 
 }  // namespace drift::inference

@@ -12,8 +12,10 @@ bool is_misalignment(std::size_t param);
 /// known to orders of magnitude only (size_prior.hpp): no more is known of it than of any effect.
 /// One equation shows misalignments that another one hides. Were they as large as their prior for
 /// certain, small ones would be a coincidence that speaks against the equation which shows them,
-/// and a well aligned platform would be taken for one that follows the other. layout: of the
-/// parameters of the linearised test.
+/// and a well aligned platform would be taken for one that follows the other. Of a free lambda, at
+/// its value: what a test shows is a product with it, and misalignments of any size beside any
+/// lambda are not what a linear problem has where these end. layout: of the parameters of the
+/// linearised test.
 double log_gain_of_misalignments(const Layout& layout, const Projector& projector);
 
 }  // namespace drift::inference

@@ -195,8 +195,9 @@ struct WeighLimits {
   /// [2 log L] that an end of lambda gains on the joint fit: this lies outside the 95 % interval.
   /// Test: ClosureProfile.*
   static constexpr double valley = 3.841458820694124;
-  /// Odds against another cause. Test: CredibleSet.ASecondCauseIsOneInTwenty
-  static constexpr double second_cause = 20.0;
+  /// Odds against something outside the library beside a cause. Of causes of the library:
+  /// library_prior.hpp.
+  static constexpr double outside_too = 20.0;
   /// [log] that more parameters must bring: 20:1. Test: CredibleSet.MoreParametersMustBring...
   static constexpr double more_parameters = 3.0;
   /// Forms of an unknown input: 7 kinds on 3 axes (of one instrument alone 5: then it is too dear;

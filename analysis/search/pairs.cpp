@@ -114,8 +114,8 @@ inference::MaxNull pair_null(const Field& field, int draws) {
 }
 
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
-                                 double library_threshold, double scan_threshold,
-                                 std::size_t most) {
+                                 double library_threshold, double scan_threshold, std::size_t most,
+                                 const WorthALook& worth) {
   // Which candidates at which variants: all single parameters, and the strongest of the others.
   // Alone a candidate may look best at another time constant than with a partner.
   std::vector<Choice> choices;
@@ -171,6 +171,7 @@ std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& s
     });
     int& of_this_name = named[name_of(field, t.a, t.b)];
     if (seen || of_this_name == EffortLimits::pairs_of_a_name) continue;
+    if (worth && !worth({t.a, t.b}, t.log_bayes)) continue;
     if (!test.quiet_beside({t.a, t.b})) continue;
     ++of_this_name;
     const inference::Contrast both = inference::make_contrast(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "analysis/search/scores/remainder.hpp"
 
 namespace drift::search {
@@ -21,10 +23,14 @@ std::vector<Pair> strongest_pairs(const Field& field, std::size_t most);
 /// Largest pair strength under the null: threshold and p-values for strongest_pairs.
 inference::MaxNull pair_null(const Field& field, int draws);
 
+/// Whether a pair of such a log evidence is worth a look at what it leaves.
+using WorthALook = std::function<bool(const Explanation& pair, double log_bayes)>;
+
 /// Pairs that leave nothing significant, by evidence, best first (at most `most`, of the same terms
 /// and axes at most two). Candidates of several parameters take part where their own score is among
-/// the strongest.
+/// the strongest. worth: empty, all are.
 std::vector<Pair> adequate_pairs(const Field& field, const std::vector<Score>& scores,
-                                 double library_threshold, double scan_threshold, std::size_t most);
+                                 double library_threshold, double scan_threshold, std::size_t most,
+                                 const WorthALook& worth = {});
 
 }  // namespace drift::search

@@ -109,7 +109,7 @@ double log_outside(const Search& found, const LibraryPrior& prior,
   const auto periodic = inference::strongest_periodic_input(left.problem, *left.projector);
   const double beside_a_cause =
       log_evidence(found, *best, declared) + prior.log_of(best->choices) +
-      log_of_visible(found.nominal, best->choices) - std::log(WeighLimits::second_cause) +
+      log_of_visible(found.nominal, best->choices) - std::log(WeighLimits::outside_too) +
       std::max(log_free_form(lone, left.problem), periodic.log_evidence());
   return std::max({alone, found.log_form, beside_a_cause});
 }

@@ -1,9 +1,12 @@
 #include "analysis/search/promising.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/pairs.hpp"
+#include "analysis/search/scores/library_prior.hpp"
+#include "analysis/search/settings_alike.hpp"
 
 namespace drift::search {
 namespace {
@@ -161,14 +164,42 @@ std::vector<std::size_t> as_good_with_credible_sizes(const Search& s) {
   return credible;
 }
 
-std::vector<Explanation> promising_pairs(const Search& s, std::size_t most) {
+namespace {
+
+std::vector<Explanation> promising_pairs(const Search& s, std::size_t most,
+                                         const WorthALook& worth) {
   constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
   std::vector<Explanation> pairs;
   for (const Pair& p :
        adequate_pairs(s.nominal, s.nominal.scores, allowed * s.thresholds.library_threshold,
-                      allowed * s.thresholds.scan_threshold, most))
+                      allowed * s.thresholds.scan_threshold, most, worth))
     pairs.push_back({p.a, p.b});
   return pairs;
+}
+
+}  // namespace
+
+std::vector<Explanation> promising_pairs(const Search& s, std::size_t most) {
+  return promising_pairs(s, most, {});
+}
+
+std::vector<Explanation> pairs_against(const Search& s, const Refit& single, std::size_t most) {
+  if (single.choices.size() > 1) return {};
+  const Choice& cause = single.choices.front();
+  // lambda is a jump, of which the linearised test says nothing.
+  const auto is_closure = [&](const Choice& c) {
+    return s.nominal.set.candidates[c.candidate].term == closure_term;
+  };
+  if (is_closure(cause)) return {};
+  const LibraryPrior prior(s.nominal.set);
+  const double of_single = std::max(single.log_bayes, s.nominal.scores[cause.candidate].log_bayes) +
+                           prior.log_within(single.choices);
+  const double least = of_single + std::log(1.0 - inference::SearchLimits::credible);
+  return promising_pairs(s, most, [&](const Explanation& pair, double log_bayes) {
+    const double most_of_it = log_bayes + prior.log_within(pair);
+    return most_of_it > least && std::ranges::none_of(pair, is_closure) &&
+           most_of_it + log_share_of_settings(s.nominal, pair) > least;
+  });
 }
 
 std::vector<Explanation> promising_several(const Search& s) {

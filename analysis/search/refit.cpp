@@ -10,6 +10,7 @@
 #include "analysis/search/fit_causes.hpp"
 #include "analysis/search/settings_alike.hpp"
 #include "analysis/search/settle_noise.hpp"
+#include "mc/task/campaign.hpp"
 
 namespace drift::search {
 namespace {
@@ -202,6 +203,16 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   as_found.as_found = true;
   judge(as_found, causes, beside);
   return better(as_found, out) ? as_found : out;
+}
+
+std::vector<Refit> refit_all(const Fitted& nominal, const MeasuredTest& test,
+                             const std::vector<Explanation>& all,
+                             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes) {
+  if (all.size() == 1)  // its own fits are spread over the threads then
+    return {refit(nominal, test, all.front(), thresholds, kinds, sizes)};
+  return mc::run_campaign(all.size(), [&](std::size_t k) {
+    return refit(nominal, test, all[k], thresholds, kinds, sizes);
+  });
 }
 
 }  // namespace drift::search

@@ -35,4 +35,9 @@ NoiseKinds noise_beside(const Fitted& nominal);
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
 
+/// Each explanation fitted, spread over threads.
+std::vector<Refit> refit_all(const Fitted& nominal, const MeasuredTest& test,
+                             const std::vector<Explanation>& all,
+                             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
+
 }  // namespace drift::search

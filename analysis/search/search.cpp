@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/left_out_terms.hpp"
 #include "analysis/search/other_equation.hpp"
 #include "analysis/search/other_valleys.hpp"
 #include "analysis/search/outside_form.hpp"
 #include "analysis/search/posterior.hpp"
 #include "analysis/search/promising.hpp"
 #include "analysis/search/refine_grids.hpp"
-#include "mc/task/campaign.hpp"
 
 namespace drift::search {
 namespace {
@@ -39,18 +39,9 @@ void look_at_remainders(Search& s) {
     s.linear.push_back(least_remainder(s, k));
 }
 
-/// Each explanation fitted, spread over threads. kinds: of noise that are looked for.
 std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
-                             const std::vector<Explanation>& all, NoiseKinds kinds,
-                             Sizes sizes = Sizes::as_found) {
-  std::vector<Refit> refits;
-  if (all.size() == 1) {  // its own fits are spread over the threads then
-    refits.push_back(refit(s.nominal, test, all.front(), s.thresholds, kinds, sizes));
-    return refits;
-  }
-  return mc::run_campaign(all.size(), [&](std::size_t k) {
-    return refit(s.nominal, test, all[k], s.thresholds, kinds, sizes);
-  });
+                             const std::vector<Explanation>& all, NoiseKinds kinds) {
+  return refit_all(s.nominal, test, all, s.thresholds, kinds, Sizes::as_found);
 }
 std::vector<Refit> refit_all(const Search& s, const MeasuredTest& test,
                              const std::vector<Explanation>& all) {
@@ -89,58 +80,6 @@ std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTe
     if (!best || b.log_bayes > best->log_bayes - ReachLimits::negligible)
       worth.push_back(std::move(b.choices));
   return worth;
-}
-
-/// Whether a term is left out by whoever does not know that it is needed: a base term, or what a
-/// case does to its accelerometers while it turns, which only matters once they are read there.
-bool is_left_out_unknowingly(const TermInfo& term) {
-  return is_base(term) || term.needs.turning;
-}
-
-/// The largest candidate of such a term: all of it that the nominal model leaves out.
-bool is_whole_left_out_term(const inference::CandidateSet& set, const inference::Candidate& c) {
-  return is_left_out_unknowingly(TermLibrary::terms[*TermLibrary::find_term(c.term)]) &&
-         std::ranges::none_of(set.candidates,
-                              [&](const inference::Candidate& o) { return o.contains(c); });
-}
-
-/// The term left out unknowingly that a fit misses most, as a choice among the candidates of the
-/// nominal fit.
-std::optional<Choice> left_out_term_missed(const Search& s, const Fitted& now) {
-  const Score* best = nullptr;
-  std::optional<Choice> missed;
-  for (std::size_t k = 0; k < now.set.candidates.size(); ++k) {
-    const inference::Candidate& c = now.set.candidates[k];
-    const Score& score = now.scores[k];
-    if (score.dof == 0 || score.strength <= s.thresholds.library_threshold ||
-        !is_whole_left_out_term(now.set, c) || (best && score.strength <= best->strength))
-      continue;
-    for (std::size_t n = 0; n < s.nominal.set.candidates.size(); ++n)
-      if (s.nominal.set.candidates[n].term == c.term &&
-          s.nominal.set.candidates[n].params == c.params) {
-        best = &score;
-        missed = Choice{n, s.nominal.scores[n].variant};
-      }
-  }
-  return missed;
-}
-
-/// Terms that the nominal model leaves out unknowingly, one after the other, each fitted through
-/// the full dynamics: whoever leaves out one usually leaves out several, and beside them the
-/// linearised test says little. Nor is anything known of what drives the platform. One of a size
-/// that nobody expects would stand for all of them. The last fit.
-std::vector<Refit> refit_left_out_terms(const Search& s, const MeasuredTest& test) {
-  Explanation in;
-  std::vector<Refit> found;
-  for (std::optional<Choice> next = left_out_term_missed(s, s.nominal);
-       next && in.size() < EffortLimits::together;
-       next = left_out_term_missed(s, found.front().after)) {
-    in.push_back(*next);
-    found = refit_all(s, test, {in}, NoiseKinds::driving_too, Sizes::of_library);
-    if (found.front().adequate()) break;
-  }
-  if (in.size() < 2) return {};
-  return found;
 }
 
 /// What is weighed must stand against less: the heaviest explanation without one of its causes and,
@@ -219,6 +158,21 @@ void add_other_valleys(Search& s, const MeasuredTest& test, std::vector<Refit>& 
       refits.push_back(std::move(r));
 }
 
+/// What was weighed, to be weighed again beside more.
+std::vector<Refit> taken_back(Search& s) {
+  std::vector<Refit> all;
+  for (std::vector<Refit>* part : {&s.sets, &s.beside, &s.rejected})
+    std::move(part->begin(), part->end(), std::back_inserter(all));
+  return all;
+}
+
+/// Whether something outside the library is more probable than all single causes together. Then two
+/// must stand against it.
+bool asks_for_two(const Search& s) {
+  return std::ranges::all_of(s.sets, [](const Refit& r) { return r.choices.size() == 1; }) &&
+         posterior_of(s).outside > inference::SearchLimits::chance;
+}
+
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{
       detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}, {}, {}, {}, never};
@@ -228,22 +182,31 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   if (!out.significant) return out;
 
   std::vector<Refit> refits;
-  // As long as anything is left to try, no size that nobody expects ends the search.
-  const auto settled = [&](Leftover left, Sizes sizes = Sizes::of_library) {
-    if (!can_be_weighed(out.nominal, refits, left, sizes)) return false;
-    add_fewer(out, test, refits);
-    add_other_valleys(out, test, refits);
-    CredibleSet weighed = weigh(out.nominal, std::move(refits), options.credible);
-    out.sets = std::move(weighed.sets);
-    out.probability = std::move(weighed.probability);
-    out.rejected = std::move(weighed.rejected);
-    out.beside = std::move(weighed.beside);
-    out.unlisted = std::move(weighed.unlisted);
-    return true;
-  };
   const auto try_more = [&](std::vector<Explanation> more) {
     std::erase_if(more, [&](const Explanation& x) { return is_among(refits, x); });
     for (Refit& r : refit_all(out, test, more)) refits.push_back(std::move(r));
+  };
+  const auto weighed = [&] {
+    add_fewer(out, test, refits);
+    add_other_valleys(out, test, refits);
+    CredibleSet set = weigh(out.nominal, std::move(refits), options.credible);
+    out.sets = std::move(set.sets);
+    out.probability = std::move(set.probability);
+    out.rejected = std::move(set.rejected);
+    out.beside = std::move(set.beside);
+    out.unlisted = std::move(set.unlisted);
+    out.log_form = log_evidence_of_a_form(out, test);
+  };
+  // As long as anything is left to try, no size that nobody expects ends the search.
+  const auto settled = [&](Leftover left, Sizes sizes = Sizes::of_library) {
+    if (!can_be_weighed(out.nominal, refits, left, sizes)) return false;
+    try_more(pairs_against(out, *heaviest(out.nominal, refits), options.most_refits));
+    weighed();
+    if (!asks_for_two(out)) return true;
+    refits = taken_back(out);
+    try_more(promising_pairs(out, options.most_refits));
+    weighed();
+    return true;
   };
   // Where such terms are left out and everything is far off, one effect will not mend it.
   const bool far_off = out.nominal.gross;
@@ -285,7 +248,6 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out = searched(std::move(nominal), test, options);
   if (out.sets.empty()) return out;
-  out.log_form = log_evidence_of_a_form(out, test);
   if (posterior_of(out).outside <= inference::SearchLimits::credible) return out;
   out.outweighed = std::exchange(out.sets, {});
   out.outweighed_probability = std::exchange(out.probability, {});

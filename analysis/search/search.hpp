@@ -26,7 +26,8 @@ struct Search : Detection {
 };
 
 /// Names what is missing: detection by the largest projected score; the
-/// adequate set, first of single candidates, then of all pairs, then by greedy steps, each
+/// adequate set, first of single candidates, against which pairs stand where the linearised test or
+/// something outside the library asks for them, then of all pairs, then by greedy steps, each
 /// confirmed by a fit through the full dynamics; probabilities from their evidence. Where something
 /// outside the library is credible by itself (0.95; posterior.hpp) all sets are outweighed.
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);

@@ -11,8 +11,10 @@
 namespace drift::search {
 
 /// Prior of simultaneous causes among all that the library offers: every term alike, shared by the
-/// candidates it offers; each further cause one in twenty (WeighLimits::second_cause). counts:
-/// whether a candidate is offered at all.
+/// candidates it offers, and missing or not whatever else is missing. As nothing is missing with
+/// the probability PosteriorPrior::nothing, the mean number of terms that are is minus its log (the
+/// law of Poisson), which all terms share: so much each further cause has. counts: whether a
+/// candidate is offered at all.
 class LibraryPrior {
  public:
   template <class Counts>
@@ -23,14 +25,11 @@ class LibraryPrior {
   explicit LibraryPrior(const inference::CandidateSet& set)
       : LibraryPrior(set, [](std::size_t) { return true; }) {}
 
-  double log_of(const Explanation& choices) const {
-    return log_within(choices) -
-           std::log(std::max<double>(1.0, static_cast<double>(offers_.size())));
-  }
-  /// The same among explanations alone, which share that every term is as likely as another.
+  double log_of(const Explanation& choices) const { return log_within(choices) - log_terms(); }
+  /// The same among explanations alone, which share that the first term is one of all.
   double log_within(const Explanation& choices) const {
-    double sum =
-        -std::log(inference::WeighLimits::second_cause) * static_cast<double>(choices.size() - 1);
+    const double log_missing = std::log(-std::log(inference::PosteriorPrior::nothing));
+    double sum = (log_missing - log_terms()) * static_cast<double>(choices.size() - 1);
     for (const Choice& choice : choices) {
       const inference::Candidate& c = set_.candidates[choice.candidate];
       sum += c.log_prior;
@@ -40,6 +39,10 @@ class LibraryPrior {
   }
 
  private:
+  double log_terms() const {
+    return std::log(std::max<double>(1.0, static_cast<double>(offers_.size())));
+  }
+
   const inference::CandidateSet& set_;
   std::map<std::string, double> offers_;
 };

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/physics/closure.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/white_problem.hpp"
 
@@ -45,6 +47,30 @@ TEST(Misalignments, ThatAreSmallAreNoCoincidence) {
   double mean = 0.0;
   for (const double s : {1.0, 0.3, 0.1, 0.03, 0.01}) mean += std::pow(s, -6.0) / 5.0;
   EXPECT_NEAR(gain_at_zero(1e12), std::log(mean), 1e-7);
+}
+
+TEST(Misalignments, BesideAFreeLambdaAreThoseAtItsValue) {
+  // What a test shows of lambda and of a common factor of the misalignments is one direction.
+  FilterSpec filter = test::base_filter(Coupling::lambda);
+  filter.active = test::only({"eta", "xi", "lambda"});
+  const Layout layout = make_layout(filter);
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  const Eigen::Index lambda =
+      std::ranges::find(layout.params, closure_param) - layout.params.begin();
+  const VecX found = VecX::LinSpaced(n, 0.5, 1.5);
+  MatX J = 1e3 * MatX::Identity(n, n);
+  J.col(lambda) = -1e3 * found;
+  J(lambda, lambda) = 0.0;
+  const auto rows = [&](const MatX& of, const VecX& r0) {
+    return Projector(test::white_problem(of, MatX(n, 0), r0), {});
+  };
+  const VecX r0 = J * found;
+  const Projector free = rows(J, r0);
+  const double value = free.fit().x[lambda];
+  MatX held = J;
+  held.col(lambda).setZero();
+  EXPECT_NEAR(log_gain_of_misalignments(layout, free),
+              log_gain_of_misalignments(layout, rows(held, r0 - value * J.col(lambda))), 1e-6);
 }
 
 }  // namespace
