@@ -82,7 +82,7 @@ struct StepBetweenHours {
 };
 
 TEST(Search, AStepBetweenTheHoursOfTheGridIsNamedAloneWithItsTime) {
-  const StepBetweenHours step(3);
+  const StepBetweenHours step(7);
   const TruthDraw& draw = step.draw;
   const Search s = step.b.found();
   ASSERT_TRUE(s.significant);
