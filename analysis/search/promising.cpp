@@ -196,6 +196,9 @@ std::vector<Explanation> pairs_against(const Search& s, const Refit& single, std
                            prior.log_within(single.choices);
   const double least = of_single + std::log(1.0 - inference::SearchLimits::credible);
   return promising_pairs(s, most, [&](const Explanation& pair, double log_bayes) {
+    const auto& candidates = s.nominal.set.candidates;
+    // A term is missing or not: parts of one are offered together.
+    if (candidates[pair[0].candidate].term == candidates[pair[1].candidate].term) return false;
     const double most_of_it = log_bayes + prior.log_within(pair);
     return most_of_it > least && std::ranges::none_of(pair, is_closure) &&
            most_of_it + log_share_of_settings(s.nominal, pair) > least;

@@ -26,8 +26,8 @@ std::vector<std::size_t> as_good_with_credible_sizes(const Search& s);
 /// Two causes at once, by the linearised test.
 std::vector<Explanation> promising_pairs(const Search& s, std::size_t most);
 
-/// Of these the ones that by the linearised test have a twentieth of the weight of a single cause
-/// or more (SearchLimits::credible): with less none would be listed beside it.
+/// Of these the ones of two terms that by the linearised test have a twentieth of the weight of a
+/// single cause or more (SearchLimits::credible): with less none would be listed beside it.
 std::vector<Explanation> pairs_against(const Search& s, const Refit& single, std::size_t most);
 
 /// More than two, one by one.
