@@ -27,6 +27,17 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
   } else {
     out.value = r.filter.priors[param].mean() / spec.unit.to_si;
   }
+  if (profiled && spec.kind == ParamKind::discrete) {
+    for (const double value : search::credible_settings(nominal, r.choices, which, param,
+                                                        inference::SearchLimits::credible))
+      out.any_of.push_back(value / spec.unit.to_si);
+    if (out.any_of.size() == 1) {
+      out.any_of.clear();
+    } else {
+      out.low_95 = out.any_of.front();
+      out.high_95 = out.any_of.back();
+    }
+  }
   const Prior prior = nominal.filter.believed(param);
   if (prior.sigma() > 0.0)
     out.prior_sigmas = (out.value * spec.unit.to_si - prior.mean()) / prior.sigma();

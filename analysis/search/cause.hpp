@@ -30,6 +30,8 @@ struct CauseParameter {
   /// 95 % interval by refits at fixed values; NaN where one of its ends is not known.
   double low_95 = std::numeric_limits<double>::quiet_NaN();
   double high_95 = std::numeric_limits<double>::quiet_NaN();
+  /// Of a discrete setting: all values that hold 95 % together, where these are several.
+  std::vector<double> any_of = {};
 
   /// The 95 % interval: by refits where there is one, else by the sigma.
   bool by_refits() const { return std::isfinite(low_95) && std::isfinite(high_95); }

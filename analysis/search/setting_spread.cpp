@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <set>
 
 #include "analysis/search/scores/log_sum.hpp"
 
@@ -23,6 +26,33 @@ double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices,
     square += weight * std::pow(setting->second - value, 2);
   }
   return std::sqrt(square / sum);
+}
+
+std::vector<double> credible_settings(const Fitted& nominal, const std::vector<Choice>& choices,
+                                      std::size_t which, std::size_t param, double credible) {
+  const auto& variants = nominal.set.candidates[choices[which].candidate].variants;
+  const auto value_of = [&](const inference::Variant& v) {
+    return std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first)->second;
+  };
+  const std::vector<double> evidence = evidence_of_settings(nominal, choices, which);
+  const double top = std::ranges::max(evidence);
+  std::map<double, double> weight;
+  double sum = 0.0;
+  for (std::size_t v = 0; v < variants.size() && top != never; ++v) {
+    const double w = variants[v].share * std::exp(evidence[v] - top);
+    weight[value_of(variants[v])] += w;
+    sum += w;
+  }
+  std::vector<std::pair<double, double>> by_weight(weight.begin(), weight.end());
+  std::ranges::stable_sort(by_weight, std::greater{}, &std::pair<double, double>::second);
+  std::set<double> values{value_of(variants[choices[which].variant])};
+  double held = 0.0;
+  for (const auto& [value, w] : by_weight) {
+    if (held >= credible * sum) break;
+    held += w;
+    values.insert(value);
+  }
+  return {values.begin(), values.end()};
 }
 
 }  // namespace drift::search

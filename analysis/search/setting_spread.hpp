@@ -11,4 +11,9 @@ namespace drift::search {
 double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices, std::size_t which,
                       std::size_t param, double value);
 
+/// The values of a discrete parameter of choices[which] that hold `credible` of the probability by
+/// the same evidence, in order (SI); the one that was fitted is among them.
+std::vector<double> credible_settings(const Fitted& nominal, const std::vector<Choice>& choices,
+                                      std::size_t which, std::size_t param, double credible);
+
 }  // namespace drift::search

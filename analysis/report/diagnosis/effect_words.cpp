@@ -35,8 +35,10 @@ double in_prior_sigmas(const search::CauseParameter& p) {
   return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
 }
 
-/// "0.056±0.011", or where refits found the interval to be another "0.056 (95 %: 0.037 to 0.22)".
+/// "0.056±0.011", or where refits found the interval to be another "0.056 (95 %: 0.037 to 0.22)";
+/// of a setting that is one of several values "4, 8, 16 or 32".
 std::string value_of(const search::CauseParameter& p) {
+  if (!p.any_of.empty()) return any_of_in_words(p);
   // Of lambda, which is between two equations, the interval is told in any case.
   if (p.param == closure_param || p.sigma_says_it()) return with_sigma(p.value, p.sigma);
   const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
@@ -92,6 +94,12 @@ std::string in_words(std::string_view term, std::string_view axis, Instrument in
   const TermInfo& info = TermLibrary::terms[*known];
   const std::string_view title = title_of(info, instrument);
   return axis.empty() ? std::string(title) : fmt::format("{}, {}", title, part_of(info, axis));
+}
+
+std::string any_of_in_words(const search::CauseParameter& p) {
+  std::vector<std::string> values;
+  for (const double value : p.any_of) values.push_back(number_text(value));
+  return listed(values, "or");
 }
 
 std::string in_words(const search::Cause& c, Instrument instrument) {

@@ -19,6 +19,8 @@ std::string in_words(std::string_view term, std::string_view axis,
 /// largest in sigmas of its prior. A title that ends in brackets takes them in: "g-sensitive drift
 /// (mass unbalance; g_drift: ...)".
 std::string in_words(const search::Cause& cause, Instrument instrument = Instrument::platform);
+/// "4, 8, 16 or 32": of a setting that the test does not tell, the values that it may have.
+std::string any_of_in_words(const search::CauseParameter& p);
 
 /// An equation (Where::equation) as a reader says it: "middle gimbal" of "gimbal middle".
 std::string equation_in_words(const std::string& equation);

@@ -64,6 +64,7 @@ Json causes_json(const std::vector<Cause>& causes) {
                             {"sigma", p.sigma},
                             {"unit", p.unit},
                             {"interval_95", {p.low(), p.high()}},
+                            {"any_of", p.any_of},
                             {"profiled", p.profiled},
                             {"prior_sigmas", p.prior_sigmas}});
     for (const Confusable& other : c.confusable_with)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
@@ -80,7 +81,8 @@ Table cause_table(const Diagnosis& d) {
     if (c.parameters.empty()) add(0, "", "", "");
     for (std::size_t k = 0; k < c.parameters.size(); ++k) {
       const CauseParameter& p = c.parameters[k];
-      add(k, p.key, plus_minus(p.value, p.sigma), unit_cell(p.unit));
+      add(k, p.key, p.any_of.empty() ? plus_minus(p.value, p.sigma) : Cell(any_of_in_words(p)),
+          unit_cell(p.unit));
     }
   }
   return table;

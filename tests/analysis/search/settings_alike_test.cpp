@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "analysis/search/setting_spread.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::search::settings_alike_test {
@@ -53,6 +54,28 @@ TEST(SettingsAlike, WhatLiesBetweenPointsStandsForTheBetterOfThem) {
   e.set.candidates.front().variants[1].between = true;
   // Of two points: the first is the one it stands for, the other has nothing.
   EXPECT_NEAR(share(e, 1), 0.5, 1e-9);
+}
+
+/// With 4, 8, 16 and 32 cycles per turn.
+Fitted with_cycles(const MatX& C, const VecX& g) {
+  Fitted e = with_settings(C, g);
+  double cycles = 2.0;
+  for (inference::Variant& v : e.set.candidates.front().variants)
+    v.settings = {{test::param("enc_n"), cycles *= 2.0}};
+  return e;
+}
+
+std::vector<double> credible_cycles(const Fitted& e, std::size_t fitted) {
+  return credible_settings(e, {{0, fitted}}, 0, test::param("enc_n"), 0.95);
+}
+
+TEST(CredibleSettings, AreAllThatTheTestDoesNotTellApart) {
+  const Fitted alike = with_cycles(MatX::Constant(4, 4, 100.0), VecX::Constant(4, 80.0));
+  EXPECT_EQ(credible_cycles(alike, 1), (std::vector<double>{4.0, 8.0, 16.0, 32.0}));
+  const Fitted one = with_cycles(100.0 * MatX::Identity(4, 4), VecX{{0.0, 0.0, 80.0, 0.0}});
+  EXPECT_EQ(credible_cycles(one, 2), (std::vector<double>{16.0}));
+  // What was fitted is told, whatever the linearised test says of it.
+  EXPECT_EQ(credible_cycles(one, 0), (std::vector<double>{4.0, 16.0}));
 }
 
 }  // namespace
