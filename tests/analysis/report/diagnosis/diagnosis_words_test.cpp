@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -250,6 +251,17 @@ TEST(DiagnosisFolder, HoldsEverythingAndLeavesNoPatchOfAnEarlierDiagnosis) {
   EXPECT_EQ(files.size(), 4u);
   EXPECT_FALSE(std::filesystem::exists(out + "/patched.toml"));
   EXPECT_FALSE(std::filesystem::exists(out + "/advised.toml"));
+}
+
+TEST(DiagnosisWords, ASettingThatTheTestDoesNotTellHasAllItsValues) {
+  search::Cause c;
+  c.term = "encoder_harmonics";
+  c.axis = "outer";
+  c.parameters = {{"enc_n", TermLibrary::find("enc_n").value(), 32.0, 0.0, "1", true}};
+  EXPECT_TRUE(report::in_words(c).ends_with("(encoder_harmonics.outer: enc_n = 32)"))
+      << report::in_words(c);
+  c.parameters.back().any_of = {4.0, 8.0, 16.0, 32.0};
+  EXPECT_TRUE(report::in_words(c).ends_with("enc_n = 4, 8, 16 or 32)")) << report::in_words(c);
 }
 
 }  // namespace

@@ -296,14 +296,5 @@ TEST(Sentence, AnEquationThatIsLessLikelyIsNotSaidToDoAsWell) {
   EXPECT_TRUE(says(of(7.0), "33 to 1 for the other one"));
 }
 
-TEST(Sentence, ASettingThatTheTestDoesNotTellHasAllItsValues) {
-  search::Cause c = cause("encoder_harmonics", "outer", "enc_cn_outer", -1.17, 0.14, "arcsec");
-  c.parameters.push_back({"enc_n", TermLibrary::find("enc_n").value(), 32.0, 0.0, "1", true});
-  c.parameters.back().any_of = {4.0, 8.0, 16.0, 32.0};
-  EXPECT_TRUE(says(report::sentence(with(Verdict::named, {c})), "enc_n = 4, 8, 16 or 32)"));
-  c.parameters.back().any_of.clear();
-  EXPECT_TRUE(says(report::sentence(with(Verdict::named, {c})), "enc_n = 32)"));
-}
-
 }  // namespace
 }  // namespace drift::sentence_test
