@@ -26,6 +26,8 @@ struct Point {
   double latitude = 0.0;
   double cost = std::numeric_limits<double>::infinity();
   double dof = 1.0;
+  Theta theta = Theta::Zero();
+  std::vector<Vec3> psi0_l = {};
   double per_dof() const { return cost / dof; }
 };
 
@@ -37,21 +39,31 @@ class Latitudes {
 
   std::vector<Point> at(const std::vector<double>& latitudes,
                         int iterations = BatchOptions{}.max_iterations) const {
+    return mc::run_campaign(latitudes.size(), [&](std::size_t k) {
+      return point(latitudes[k], {.max_iterations = iterations}, nullptr);
+    });
+  }
+  /// The same from a fit that is not far away.
+  std::vector<Point> beside(const Point& from, const std::vector<double>& latitudes) const {
     return mc::run_campaign(latitudes.size(),
-                            [&](std::size_t k) { return point(latitudes[k], iterations); });
+                            [&](std::size_t k) { return point(latitudes[k], {}, &from); });
   }
 
  private:
-  Point point(double latitude, int iterations) const {
+  Point point(double latitude, BatchOptions options, const Point* from) const {
     Point p{latitude};
     if (!(std::abs(latitude) <= 90.0 * detail::deg)) return p;
     mc::Study study = study_;
     study.site.latitude = latitude;
     try {
       const preparation::RecordedTest test = preparation::recorded_test(study, recordings_);
-      const BatchResult fit = fit_batch(
-          filter_, {test.timeline, study.readout, test.measured}, make_layout(filter_).theta,
-          {.max_iterations = iterations, .result = BatchOptions::Result::estimates});
+      const MeasuredTest measured{test.timeline, study.readout, test.measured};
+      options.result = BatchOptions::Result::estimates;
+      const BatchResult fit =
+          from ? fit_batch_from(filter_, measured, from->theta, from->psi0_l, options)
+               : fit_batch(filter_, measured, make_layout(filter_).theta, options);
+      p.theta = theta_of(filter_, fit);
+      p.psi0_l = fit.psi0_l;
       p.cost = fit.estimate.statistic;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
     } catch (const InputError&) {
@@ -104,7 +116,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   const Latitudes latitudes(study, recordings, filter);
   const double declared = study.site.latitude;
   const Point before = latitudes.at({declared}).front();
-  if (!std::isfinite(before.cost)) return std::nullopt;
+  if (!std::isfinite(before.cost) || before.per_dof() <= 1.0) return std::nullopt;
   Point best = before;
   const auto take = [&](const std::vector<Point>& points) {
     for (const Point& p : points)
@@ -114,7 +126,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   // better the smaller the step. Far from it the cost may be concave: then several distances are
   // tried at once.
   const double small = 0.2 * detail::deg;
-  const std::vector<Point> beside = latitudes.at({declared - small, declared + small});
+  const std::vector<Point> beside = latitudes.beside(before, {declared - small, declared + small});
   const double bend = beside[0].cost + beside[1].cost - 2.0 * before.cost;
   const double foot = std::pow(beside[1].cost - beside[0].cost, 2) / (8.0 * bend);
   const bool promising = !(bend > 0.0 && foot < SiteLimits::promise * (before.cost - before.dof));
@@ -159,7 +171,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       before.per_dof(), best.per_dof(), stats::misfit_chance(best.per_dof(), best.dof)};
   const double gain = (before.cost - best.cost) / std::max(1.0, best.per_dof());
   doubt.weigh(gain);
-  if (!doubt.evident() || doubt.chi2_per_dof_before <= 1.0) return std::nullopt;
+  if (!doubt.evident()) return std::nullopt;
   doubt.mirrored = doubt.is_on_other_hemisphere() && gain > inference::FitLimits::mirrored;
   if (!doubt.explains() && !doubt.mirrored) return std::nullopt;
   if (!doubt.explains()) return doubt;

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/search/other_equation.hpp"
 #include "analysis/search/pairs.hpp"
 #include "analysis/search/settle_noise.hpp"
 
@@ -44,8 +43,8 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
   }
   // The other equation is a jump, not a small amplitude: by the likelihood ratio of two points,
   // P(2 log LR > T) <= exp(-T/2).
-  const auto other = fit_other_equation(nominal, test);
-  out.other_equation = other ? other->gain : -infinity;
+  out.other = fit_other_equation(nominal, test);
+  out.other_equation = out.other ? out.other->gain : -infinity;
   out.p_library = out.thresholds.library.p_value(
       std::max(strongest_candidate(nominal), 0.5 * out.other_equation));
   out.p_scan = out.thresholds.scan.p_value(strongest_window(nominal));

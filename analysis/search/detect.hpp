@@ -2,6 +2,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/chance_thresholds.hpp"
+#include "analysis/search/other_equation.hpp"
 
 namespace drift::search {
 
@@ -29,7 +30,8 @@ struct Detection {
   ChanceThresholds thresholds;
   inference::MaxNull pairs;
   double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0, p_periodic = 1.0;
-  double other_equation = 0.0;  ///< gain of fit_other_equation(); -infinity where there is none
+  std::optional<OtherEquation> other;  ///< in the place of the nominal one
+  double other_equation = 0.0;         ///< its gain; -infinity where there is none
   double p_value = 1.0;         ///< of the strongest family, for all families together
   bool significant = false;
 };

@@ -68,6 +68,7 @@ inference::NoiseModel declared_noise(const FilterSpec& filter) {
 void Fitted::look_for_unknown_inputs() {
   lone = inference::strongest_lone_input(problem, noise.model);
   periodic = inference::strongest_periodic_input(problem, *projector);
+  looked = true;
 }
 
 double Fitted::log_gain_of_misalignments() const {
@@ -99,6 +100,7 @@ std::vector<std::size_t> Fitted::by_evidence() const {
 }
 
 Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEstimate& noise) {
+  f.looked = f.looked && noise.model == f.noise.model;
   f.noise = noise;
   f.projector.emplace(f.problem, noise.model);
   static_cast<Field&>(f) = {std::move(f.set), f.projector->candidates(),

@@ -22,6 +22,7 @@ struct Fitted : Field {
   /// asked for.
   inference::LoneEffect lone;
   inference::PeriodicInput periodic;
+  bool looked = false;  ///< for both, under this noise
 
   double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
   /// Asks for both.

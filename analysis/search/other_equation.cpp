@@ -5,6 +5,7 @@
 
 #include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/promising.hpp"
 #include "analysis/search/settle_noise.hpp"
 
 namespace drift::search {
@@ -59,7 +60,7 @@ std::vector<BesideEquation> beside_other_equation(const Search& s, const Measure
                                                   const inference::NoiseEstimate* noise) {
   std::vector<BesideEquation> pairs;
   const auto changed = change_of_equation(s.nominal.set);
-  const auto other = fit_other_equation(s.nominal, test);
+  const auto& other = s.other;
   if (!changed || !other) return pairs;
   Fitted there = noise != nullptr ? examine(other->filter, test, other->fit, *noise)
                                   : examine(other->filter, test, other->fit);

@@ -2,9 +2,12 @@
 
 #include <optional>
 
-#include "analysis/search/promising.hpp"
+#include "analysis/search/fitted.hpp"
+#include "analysis/search/scores/choice.hpp"
 
 namespace drift::search {
+
+struct Search;
 
 /// The other of eq. (5) and (6) in the place of the nominal one, all else as it is.
 struct OtherEquation {

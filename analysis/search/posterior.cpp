@@ -105,8 +105,11 @@ double log_outside(const Search& found, const LibraryPrior& prior,
     if (!best || r.log_bayes > best->log_bayes) best = &r;
   if (!best) return std::max(alone, found.log_form);
   const Fitted& left = best->after;
-  const auto lone = inference::strongest_lone_input(left.problem, left.noise.model);
-  const auto periodic = inference::strongest_periodic_input(left.problem, *left.projector);
+  const auto lone =
+      left.looked ? left.lone : inference::strongest_lone_input(left.problem, left.noise.model);
+  const auto periodic = left.looked
+                            ? left.periodic
+                            : inference::strongest_periodic_input(left.problem, *left.projector);
   const double beside_a_cause =
       log_evidence(found, *best, declared) + prior.log_of(best->choices) +
       log_of_visible(found.nominal, best->choices) - std::log(WeighLimits::outside_too) +

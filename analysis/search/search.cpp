@@ -174,8 +174,7 @@ bool asks_for_two(const Search& s) {
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
-  Search out{
-      detect(std::move(nominal), test, options), {}, {}, false, {}, {}, {}, {}, {}, {}, never};
+  Search out{detect(std::move(nominal), test, options), {}};
   if (out.significant)
     out.nominal = refine_grids(std::move(out.nominal), test, ReachLimits::worth_refining);
   look_at_remainders(out);
@@ -189,12 +188,7 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
   const auto weighed = [&] {
     add_fewer(out, test, refits);
     add_other_valleys(out, test, refits);
-    CredibleSet set = weigh(out.nominal, std::move(refits), options.credible);
-    out.sets = std::move(set.sets);
-    out.probability = std::move(set.probability);
-    out.rejected = std::move(set.rejected);
-    out.beside = std::move(set.beside);
-    out.unlisted = std::move(set.unlisted);
+    static_cast<CredibleSet&>(out) = weigh(out.nominal, std::move(refits), options.credible);
     out.log_form = log_evidence_of_a_form(out, test);
   };
   // As long as anything is left to try, no size that nobody expects ends the search.

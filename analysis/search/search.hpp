@@ -7,15 +7,9 @@
 namespace drift::search {
 
 /// What the search for causes found.
-struct Search : Detection {
-  std::vector<Refit> sets;  ///< adequate explanations in the credible set, most probable first;
-                            ///< each may hold several simultaneous causes
-  std::vector<double> probability;  ///< of each
-  bool just_not = false;            ///< none of the sets is adequate; what they leave may be chance
-  std::vector<Refit> rejected;      ///< the most probable ones that leave something significant
-  std::vector<Refit> beside;        ///< those that leave nothing and are not in the credible set
-  std::vector<Unlisted> unlisted;   ///< of these what stands for nothing else
-  std::vector<Remainder> linear;    ///< of every single candidate, from the linearised test
+struct Search : Detection, CredibleSet {
+  bool just_not = false;          ///< none of the sets is adequate; what they leave may be chance
+  std::vector<Remainder> linear;  ///< of every single candidate, from the linearised test
   /// Sets and their probabilities where something outside the library is so much more probable that
   /// none of them is given: then there are no sets.
   std::vector<Refit> outweighed;

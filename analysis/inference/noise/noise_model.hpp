@@ -17,6 +17,7 @@ struct LoneInput {
   double sigma =
       0.0;  ///< stationary [rad/s, g, rad]; of a random walk per sqrt(s). 0: there is none
   double tau = std::numeric_limits<double>::infinity();  ///< [s]
+  bool operator==(const LoneInput&) const = default;
 };
 
 /// Standard deviations of all noise: white of the instruments, and what drives the platform.
@@ -35,6 +36,7 @@ struct NoiseModel {
     return angle_random_walk > 0.0 || drift_random_walk > 0.0 || markov_drift > 0.0 ||
            acc_markov > 0.0 || lone.sigma > 0.0;
   }
+  bool operator==(const NoiseModel&) const = default;
 };
 
 }  // namespace drift::inference
