@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/misalignments.hpp"
+#include "analysis/inference/thresholds.hpp"
 #include "core/estimate/linearize.hpp"
 #include "core/estimate/linearizer.hpp"
 #include "core/sim/memory_path.hpp"
@@ -102,6 +104,46 @@ void carry_back(std::vector<IntervalDrive>& drives, const FilterSpec& nominal,
   }
 }
 
+/// The angle [rad] by which the platform and its gyros have turned between two fits of a test.
+double turned_between(const Timeline& timeline, const KnownSignatures& known, const Theta& theta,
+                      const Trajectory& phi) {
+  const Theta before = theta_of(known.filter, known.fit);
+  double angle = 0.0;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (is_misalignment(i)) angle = std::max(angle, std::abs(theta[i] - before[i]));
+  const Trajectory then = integrate(timeline, known.filter.model(), before, known.fit.psi0_l);
+  for (std::size_t k = 0; k < phi.size(); ++k) angle = std::max(angle, (phi[k] - then[k]).norm());
+  return angle;
+}
+
+bool same_column(const SignatureSpec& a, const SignatureSpec& b) {
+  if (a.param != b.param || a.unit != b.unit) return false;
+  const TermInfo& owner = TermLibrary::owner(a.param);
+  return a.theta.segment(owner.first, owner.count) == b.theta.segment(owner.first, owner.count);
+}
+
+/// Columns of which those known are taken as they are.
+MatX columns_beside(const KnownSignatures& known, const FilterSpec& nominal,
+                    const MeasuredTest& test, const BatchResult& fit,
+                    const std::vector<SignatureSpec>& specs, const std::vector<RowTag>& tags) {
+  MatX out(static_cast<Eigen::Index>(tags.size()), static_cast<Eigen::Index>(specs.size()));
+  std::vector<SignatureSpec> others;
+  std::vector<Eigen::Index> places;
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    const auto place = static_cast<Eigen::Index>(k);
+    const auto at = std::ranges::find_if(
+        known.specs, [&](const SignatureSpec& s) { return same_column(s, specs[k]); });
+    if (at != known.specs.end() && specs[k].param != closure_param) {
+      out.col(place) = known.columns.col(at - known.specs.begin());
+    } else {
+      others.push_back(specs[k]);
+      places.push_back(place);
+    }
+  }
+  out(Eigen::all, places) = signature_columns(nominal, test, fit, others, tags);
+  return out;
+}
+
 }  // namespace
 
 VecX residual_of(const LinearProblem& problem, const BatchResult& fit) {
@@ -163,7 +205,8 @@ MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, cons
 }
 
 LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test,
-                             const BatchResult& fit, const std::vector<SignatureSpec>& specs) {
+                             const BatchResult& fit, const std::vector<SignatureSpec>& specs,
+                             const KnownSignatures* known) {
   LinearProblem out;
   out.tags = row_tags(test);
   out.drives = drives(test.timeline);
@@ -201,7 +244,11 @@ LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test
     next += count;
   }
 
-  out.extra = signature_columns(nominal, test, fit, specs, out.tags);
+  const bool alike = known && known->columns.rows() == rows &&
+                     known->filter.coupling == nominal.coupling &&
+                     turned_between(test.timeline, *known, theta, phi) < EffortLimits::turned;
+  out.extra = alike ? columns_beside(*known, nominal, test, fit, specs, out.tags)
+                    : signature_columns(nominal, test, fit, specs, out.tags);
   return out;
 }
 

@@ -16,12 +16,22 @@ struct SignatureSpec {
   double unit = 1.0;            ///< SI size of one prior sigma
 };
 
+/// Columns of candidates that were worked out about another fit of the same test.
+struct KnownSignatures {
+  const FilterSpec& filter;
+  const BatchResult& fit;
+  const std::vector<SignatureSpec>& specs;
+  const MatX& columns;  ///< shape (rows, specs)
+};
+
 /// What a fit left, linearised: residual, nominal columns and candidate columns, rows in time
 /// order. fit: of the nominal filter; its theta and psi0_l are where everything is linearised.
 /// Columns of candidates come by dual numbers, many at once: of a spec's theta, the parameters of
-/// its own term count.
+/// its own term count. known: taken where the platform and its gyros have hardly turned since
+/// (EffortLimits::turned), but for that of lambda, which goes with the misalignments themselves.
 LinearProblem linear_problem(const FilterSpec& nominal, const MeasuredTest& test,
-                             const BatchResult& fit, const std::vector<SignatureSpec>& specs);
+                             const BatchResult& fit, const std::vector<SignatureSpec>& specs,
+                             const KnownSignatures* known = nullptr);
 
 /// The candidate columns alone, for the rows of `tags`; shape (tags, specs).
 MatX signature_columns(const FilterSpec& nominal, const MeasuredTest& test, const BatchResult& fit,

@@ -181,6 +181,10 @@ struct EffortLimits {
   /// Iterations of a fit at a latitude that is tried blindly: at the recording's own it ends after
   /// 5 to 10, elsewhere it often never does.
   static constexpr int blindly = 15;
+  /// [rad] by which the platform and its gyros may have turned between two fits for a candidate's
+  /// columns of one to be taken for those of the other: they are off by that part of themselves.
+  /// Test: Signatures.OfAFitNearby...
+  static constexpr double turned = 1e-3;
 };
 
 /// Which explanation is kept, and named.

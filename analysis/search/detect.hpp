@@ -32,7 +32,7 @@ struct Detection {
   double p_library = 1.0, p_scan = 1.0, p_pairs = 1.0, p_lone = 1.0, p_periodic = 1.0;
   std::optional<OtherEquation> other;  ///< in the place of the nominal one
   double other_equation = 0.0;         ///< its gain; -infinity where there is none
-  double p_value = 1.0;         ///< of the strongest family, for all families together
+  double p_value = 1.0;                ///< of the strongest family, for all families together
   bool significant = false;
 };
 

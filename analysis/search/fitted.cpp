@@ -25,18 +25,25 @@ double cost_of_misalignments(const FilterSpec& filter, const BatchResult& fit) {
 }
 
 /// Linearised, without noise and scores.
-Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit) {
+Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
+                  const Fitted* beside) {
   Fitted f;
   f.filter = filter;
   f.fit = fit;
   f.set = inference::library_candidates(filter, theta_of(filter, fit), test.timeline);
-  f.problem = inference::linear_problem(filter, test, fit, f.set.signatures);
+  if (!beside) {
+    f.problem = inference::linear_problem(filter, test, fit, f.set.signatures);
+    return f;
+  }
+  const inference::KnownSignatures known{beside->filter, beside->fit, beside->set.signatures,
+                                         beside->problem.extra};
+  f.problem = inference::linear_problem(filter, test, fit, f.set.signatures, &known);
   return f;
 }
 
 /// With less weight on what is no Gaussian noise, the noise about as given.
 void lower_outliers(inference::LinearProblem& problem, const inference::NoiseModel& noise) {
-  const inference::Projector first(problem, noise);
+  const inference::Projector first(problem.bare(), noise);
   problem.weight = inference::robust_weights(problem, first.clean_residual());
 }
 
@@ -114,15 +121,15 @@ Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEsti
 }
 
 Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
-               const inference::NoiseEstimate& known) {
-  Fitted f = linearised(filter, test, fit);
+               const inference::NoiseEstimate& known, const Fitted* beside) {
+  Fitted f = linearised(filter, test, fit, beside);
   lower_outliers(f.problem, known.model);
   return with_noise(std::move(f), test.timeline, known);
 }
 
 Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
-               NoiseKinds kinds) {
-  Fitted f = linearised(filter, test, fit);
+               NoiseKinds kinds, const Fitted* beside) {
+  Fitted f = linearised(filter, test, fit, beside);
   const VecX residual = inference::residual_of(f.problem, fit);
   const inference::NoiseEstimate differences = inference::noise_of_differences(f.problem, residual);
   const inference::NoiseModel declared = declared_noise(filter);

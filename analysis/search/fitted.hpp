@@ -43,12 +43,13 @@ struct Fitted : Field {
 /// What noise may be found where it is estimated.
 enum class NoiseKinds { white, driving_too };
 
-/// Linearises about a fit, lists candidates and scores them; the noise is estimated.
+/// Linearises about a fit, lists candidates and scores them; the noise is estimated. beside: a fit
+/// of the same test whose signatures do here as well where the two are close (linear_problem).
 Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
-               NoiseKinds kinds = NoiseKinds::driving_too);
+               NoiseKinds kinds = NoiseKinds::driving_too, const Fitted* beside = nullptr);
 /// The same under a noise that is known.
 Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
-               const inference::NoiseEstimate& known);
+               const inference::NoiseEstimate& known, const Fitted* beside = nullptr);
 
 /// Everything scored again under another noise.
 Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEstimate& noise);

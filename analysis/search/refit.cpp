@@ -139,7 +139,7 @@ Refit scored(const std::vector<Choice>& choices, const FilterSpec& filter, const
   Refit out;
   out.choices = choices;
   out.filter = filter;
-  out.after = examine(filter, b.test, fit, b.kinds);
+  out.after = examine(filter, b.test, fit, b.kinds, &b.nominal);
   // A second effect may hide in the noise; beside a cause noise stays where it is credible.
   if (const auto settled =
           settle_noise(out.after, EffortLimits::noise_tries_beside, UnknownInputs::free_form);
@@ -192,7 +192,7 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   }
   const auto room = with_room_for_sizes(nominal.set, out);
   if (room && out.excess > 0.0)
-    look_at_rest(out, examine(room->filter, test, causes.fit, out.after.noise), beside);
+    look_at_rest(out, examine(room->filter, test, causes.fit, out.after.noise, &out.after), beside);
   judge(out, causes, beside);
   if (sizes == Sizes::of_library || !room || room->farthest <= inference::FitLimits::beyond_prior)
     return out;

@@ -174,7 +174,7 @@ bool asks_for_two(const Search& s) {
 }
 
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
-  Search out{detect(std::move(nominal), test, options), {}};
+  Search out{{detect(std::move(nominal), test, options)}, {}, false, {}, {}, {}, never};
   if (out.significant)
     out.nominal = refine_grids(std::move(out.nominal), test, ReachLimits::worth_refining);
   look_at_remainders(out);
