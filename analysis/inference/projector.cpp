@@ -1,5 +1,6 @@
 #include "analysis/inference/projector.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "core/base/decompose.hpp"
@@ -50,20 +51,40 @@ Projected Projector::candidates() const {
           extra().colwise().squaredNorm().transpose()};
 }
 
+Projected Projector::candidates_in(const std::vector<std::vector<int>>& groups) const {
+  const auto half = half_.leftCols(extra().cols());
+  Projected out{MatX::Constant(extra().cols(), extra().cols(), std::nan("")),
+                extra().transpose() * r0() - half.transpose() * half_.rightCols<1>(),
+                extra().colwise().squaredNorm().transpose()};
+  for (const std::vector<int>& group : groups)
+    out.C(group, group) = information(extra()(Eigen::all, group), half_(Eigen::all, group));
+  return out;
+}
+
 Projected Projector::candidates(const std::vector<int>& columns) const {
   const MatX S = extra()(Eigen::all, columns), half = half_(Eigen::all, columns);
   return {information(S, half), S.transpose() * r0() - half.transpose() * half_.rightCols<1>(),
           S.colwise().squaredNorm().transpose()};
 }
 
+Projector::Scan Projector::scanned(const MatX& white, const MatX& half, Eigen::Index first) const {
+  return {information(white, half), MatX(white.cols(), 0),
+          white.transpose() * r0().segment(first, white.rows()) -
+              half.transpose() * half_.rightCols<1>(),
+          white.colwise().squaredNorm().transpose()};
+}
+
 Projector::Scan Projector::scan(const MatX& columns, Eigen::Index first) const {
   const MatX white = whitener_.apply(columns, first), half = h(white, first);
-  const Eigen::Index K = extra().cols(), count = white.rows();
-  return {
-      information(white, half),
-      white.transpose() * extra().middleRows(first, count) - half.transpose() * half_.leftCols(K),
-      white.transpose() * r0().segment(first, count) - half.transpose() * half_.rightCols<1>(),
-      white.colwise().squaredNorm().transpose()};
+  Scan out = scanned(white, half, first);
+  out.cross = white.transpose() * extra().middleRows(first, white.rows()) -
+              half.transpose() * half_.leftCols(extra().cols());
+  return out;
+}
+
+Projector::Scan Projector::scan_alone(const MatX& columns, Eigen::Index first) const {
+  const MatX white = whitener_.apply(columns, first);
+  return scanned(white, h(white, first), first);
 }
 
 Projector::Replay Projector::replay(const MatX& recordings) const {

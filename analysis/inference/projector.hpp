@@ -34,6 +34,8 @@ class Projector {
   const Marginal& marginal() const { return marginal_; }
   /// All candidates of the problem, against all rows.
   Projected candidates() const;
+  /// The same, but C of each group of columns alone; NaN between groups.
+  Projected candidates_in(const std::vector<std::vector<int>>& groups) const;
   /// Some of them, in the order given.
   Projected candidates(const std::vector<int>& columns) const;
 
@@ -45,6 +47,8 @@ class Projector {
     VecX g, raw;  ///< shape L
   };
   Scan scan(const MatX& columns, Eigen::Index first) const;
+  /// The same without the cross information, which is nearly all of the work.
+  Scan scan_alone(const MatX& columns, Eigen::Index first) const;
 
   /// Other data of the same test in the place of r0, a recording per column, not whitened.
   struct Replay {
@@ -73,6 +77,8 @@ class Projector {
  private:
   /// first: row that the first one of `whitened` stands for.
   MatX h(const Eigen::Ref<const MatX>& whitened, Eigen::Index first) const;
+  /// Of whitened columns and their h.
+  Scan scanned(const MatX& white, const MatX& half, Eigen::Index first) const;
 
   Whitener whitener_;
   Eigen::Index n_;  ///< parameters

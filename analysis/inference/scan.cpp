@@ -59,7 +59,7 @@ VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const 
 }
 
 std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timeline& timeline,
-                                       const Projector& projector) {
+                                       const Projector& projector, Cross cross) {
   std::vector<PositionScan> all;
   for (Eigen::Index first = 0; first < problem.rows();) {
     // A run of rows of one position within one chain.
@@ -86,7 +86,8 @@ std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timel
       columns.col(k) /= norm;
       scan.windows[k].unit = 1.0 / norm;
     }
-    scan.scan = projector.scan(columns, first);
+    scan.scan = cross == Cross::known ? projector.scan(columns, first)
+                                      : projector.scan_alone(columns, first);
     scan.T = VecX::Zero(columns.cols());
     for (Eigen::Index k = 0; k < columns.cols(); ++k)
       if (scan.scan.C(k, k) > VisibleLimits::left * scan.scan.raw[k] && scan.scan.C(k, k) > 0.0)

@@ -16,6 +16,9 @@ struct Window {
   double unit = 1.0;  ///< amplitude that a scan column stands for, SI
 };
 
+/// Whether the information that windows share with the candidates is worked out.
+enum class Cross { known, left_out };
+
 /// The windows of one position, against the parameters and the candidates.
 struct PositionScan {
   std::vector<Window> windows;
@@ -28,7 +31,7 @@ struct PositionScan {
 /// end of its chain; what it does after its position is left out of the test direction (which stays
 /// exact).
 std::vector<PositionScan> scan_windows(const LinearProblem& problem, const Timeline& timeline,
-                                       const Projector& projector);
+                                       const Projector& projector, Cross cross = Cross::known);
 
 /// The signature of a window over rows first .. first + count: per rad/s, rad, g, rad.
 VecX window_signature(const MeasuredRows& rows, const Timeline& timeline, const Window& window,

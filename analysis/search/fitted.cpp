@@ -37,6 +37,7 @@ Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const Batc
   }
   const inference::KnownSignatures known{beside->filter, beside->fit, beside->set.signatures,
                                          beside->problem.extra};
+  f.scores_alone = true;
   f.problem = inference::linear_problem(filter, test, fit, f.set.signatures, &known);
   return f;
 }
@@ -45,6 +46,28 @@ Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const Batc
 void lower_outliers(inference::LinearProblem& problem, const inference::NoiseModel& noise) {
   const inference::Projector first(problem.bare(), noise);
   problem.weight = inference::robust_weights(problem, first.clean_residual());
+}
+
+/// Columns that some candidate has at one of its settings, with all that others have with them.
+std::vector<std::vector<int>> columns_together(const inference::CandidateSet& set) {
+  std::vector<std::vector<int>> groups;
+  std::vector<std::size_t> group_of(set.signatures.size());
+  for (std::size_t k = 0; k < group_of.size(); ++k) {
+    group_of[k] = k;
+    groups.push_back({static_cast<int>(k)});
+  }
+  for (const inference::Candidate& c : set.candidates)
+    for (const inference::Variant& v : c.variants)
+      for (const int column : v.columns) {
+        const std::size_t to = group_of[static_cast<std::size_t>(v.columns.front())],
+                          from = group_of[static_cast<std::size_t>(column)];
+        if (to == from) continue;
+        for (const int moved : groups[from]) group_of[static_cast<std::size_t>(moved)] = to;
+        groups[to].insert(groups[to].end(), groups[from].begin(), groups[from].end());
+        groups[from].clear();
+      }
+  std::erase_if(groups, [](const std::vector<int>& g) { return g.empty(); });
+  return groups;
 }
 
 }  // namespace
@@ -110,8 +133,13 @@ Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEsti
   f.looked = f.looked && noise.model == f.noise.model;
   f.noise = noise;
   f.projector.emplace(f.problem, noise.model);
-  static_cast<Field&>(f) = {std::move(f.set), f.projector->candidates(),
-                            inference::scan_windows(f.problem, timeline, *f.projector)};
+  inference::Projected candidates = f.scores_alone
+                                        ? f.projector->candidates_in(columns_together(f.set))
+                                        : f.projector->candidates();
+  static_cast<Field&>(f) = {std::move(f.set), std::move(candidates),
+                            inference::scan_windows(f.problem, timeline, *f.projector,
+                                                    f.scores_alone ? inference::Cross::left_out
+                                                                   : inference::Cross::known)};
   const double cost = cost_of_misalignments(f.filter, f.fit);
   for (const inference::Candidate& c : f.set.candidates)
     f.discount.push_back(c.term == closure_term ? cost : 0.0);

@@ -23,6 +23,9 @@ struct Fitted : Field {
   inference::LoneEffect lone;
   inference::PeriodicInput periodic;
   bool looked = false;  ///< for both, under this noise
+  /// Beside causes: of its field only scores and windows are known, not what two candidates, or a
+  /// candidate and a window, have in common.
+  bool scores_alone = false;
 
   double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
   /// Asks for both.
@@ -44,7 +47,8 @@ struct Fitted : Field {
 enum class NoiseKinds { white, driving_too };
 
 /// Linearises about a fit, lists candidates and scores them; the noise is estimated. beside: a fit
-/// of the same test whose signatures do here as well where the two are close (linear_problem).
+/// of the same test without some causes, whose signatures do here as well where the two are close
+/// (linear_problem); then what is scored has scores_alone.
 Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
                NoiseKinds kinds = NoiseKinds::driving_too, const Fitted* beside = nullptr);
 /// The same under a noise that is known.
