@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace drift::blind {
@@ -43,6 +44,23 @@ Reliability reliability_of(const std::vector<TrialScore>& scores) {
   out.error = n > 0.0 ? out.error / n : std::nan("");
   out.error_by_chance = n > 0.0 ? out.error_by_chance / n : std::nan("");
   return out;
+}
+
+stats::Proportion right_if_named_by_probability(const std::vector<TrialScore>& scores,
+                                                double wrong) {
+  std::vector<const TrialScore*> sure;
+  for (const TrialScore& s : scores)
+    if (s.answer.belief.kind == Belief::Kind::named) sure.push_back(&s);
+  std::ranges::stable_sort(sure, std::greater{},
+                           [](const TrialScore* s) { return s->answer.belief.probability; });
+  double expected = 0.0;
+  std::size_t right = 0;
+  for (const TrialScore* s : sure) {
+    expected += 1.0 - s->answer.belief.probability;
+    if (expected > wrong * static_cast<double>(scores.size())) break;
+    right += s->believed_right;
+  }
+  return stats::proportion(right, scores.size());
 }
 
 }  // namespace drift::blind

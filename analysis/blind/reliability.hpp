@@ -24,4 +24,10 @@ struct Reliability {
 
 Reliability reliability_of(const std::vector<TrialScore>& scores);
 
+/// What could be named at all: right ones where every cause that is the most probable answer is
+/// named, the surest first, as long as no more than this part of the trials is expected to be named
+/// wrongly by what was stated. No rule that goes by these probabilities names more for that price.
+stats::Proportion right_if_named_by_probability(const std::vector<TrialScore>& scores,
+                                                double wrong);
+
 }  // namespace drift::blind

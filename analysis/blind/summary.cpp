@@ -188,6 +188,10 @@ void add_further(const Scores& scores, Summary& s) {
   add("recovered parameter within 3 sigma", pulls_within(s.pulls, 3.0));
   add("8 sigma and above: exact, where an identical twin counts as the same cause",
       share(scores, large_single, exact_or_twin));
+  Scores large;
+  std::ranges::copy_if(scores, std::back_inserter(large), large_single);
+  add("8 sigma and above: right, if all were named that one wrong name in 100 allows",
+      right_if_named_by_probability(large, 0.01));
   add("8 sigma and above: right subsystem", share(scores, large_single, subsystem));
   add("8 sigma and above: right causes among others",
       share(scores, large_single, [](auto& t) { return t.extra; }));
