@@ -195,7 +195,8 @@ bool is_date(std::string_view text, StrokeDates order) {
   return take_date(text, order) && text.empty();
 }
 
-/// A date that comes late makes the time go back by less than a day; so does the right one behind a
+/// A date that comes late makes the time go back by less than a day, or by a day where minutes are
+/// all that is written; so does the right one behind a
 /// date that came too early, by a day and more: that is left for others to refuse.
 void Clock::Reading::take_late_date(double& now) {
   const double step = now - *last;
@@ -203,7 +204,7 @@ void Clock::Reading::take_late_date(double& now) {
     ahead = true;
   } else if (step >= 0.0) {
     ahead = ahead && std::floor(now / day_s) == std::floor(*last / day_s);
-  } else if (step < -0.5 * day_s && step + day_s > 0.0 && !ahead) {
+  } else if (step < -0.5 * day_s && step + day_s >= 0.0 && !ahead) {
     now += day_s;
     ++late;
   }

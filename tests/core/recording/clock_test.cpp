@@ -67,6 +67,17 @@ TEST(Clock, TimesOfDayGoOnPastMidnight) {
             (std::vector<double>{0.0, 0.25, 0.5}));
 }
 
+/// A date that is late where minutes are all that is written: the time goes back by a day.
+TEST(Clock, MinutesOfADateThatIsLateMayBeOneMinute) {
+  Clock clock(true);
+  std::vector<double> times;
+  for (const char* cell : {"14.03.2026 23:59", "14.03.2026 00:00", "14.03.2026 00:00",
+                           "14.03.2026 00:01", "15.03.2026 00:02"})
+    times.push_back(clock.read(cell).value());
+  EXPECT_EQ(times, (std::vector<double>{0.0, 60.0, 60.0, 120.0, 180.0}));
+  EXPECT_EQ(clock.late_dates(), 3u);
+}
+
 /// What Clock makes of a column of times.
 std::vector<double> seconds(Clock& clock, const std::vector<std::string>& cells) {
   std::vector<double> all;
