@@ -70,11 +70,28 @@ bool GuessPosition::begin(Candidate& candidate, std::string_view label) {
   return all.size() <= PositionLimits::most_changes + 1;
 }
 
+/// A text, nothing and -1 may say that it is turned; so does 0, unless the first position alone is
+/// called so.
+bool GuessPosition::says_turned(Candidate& candidate, double number) {
+  if (!(number >= 0.0)) return true;
+  auto& all = candidate.stretches;
+  if (all.empty()) return false;
+  const bool from_zero = cell_number(all.front().label) == 0.0,
+             alone = from_zero && all.size() == 1;
+  if (number == 0.0 && alone && !candidate.turned) return false;
+  if (number > 0.0 && !(alone && all.front().rows < PositionLimits::fewest_rows)) return false;
+  if (from_zero) {
+    all.erase(all.begin());
+    candidate.labels.erase(0.0);
+  }
+  return number == 0.0;
+}
+
 void GuessPosition::look_at_row(const std::vector<std::string_view>& cells) {
   for (Candidate& c : candidates_) {
     if (!c.may_be) continue;
     const std::string_view label = cells[c.column];
-    if (named_ && !(cell_number(label) >= 0.0)) {  // a text, nothing, -1: it may be turned
+    if (named_ && says_turned(c, cell_number(label))) {
       c.turned = true;
       continue;
     }
@@ -128,7 +145,6 @@ void GuessPosition::name_channel(GuessedFile& file) const {
     const Candidate& c = candidates_.front();
     const auto rows = [](const Stretch& s) { return s.rows >= PositionLimits::fewest_rows; };
     if (!c.may_be || c.stretches.size() < 2 || !std::ranges::all_of(c.stretches, rows)) return;
-    if (*c.labels.begin() < 1.0 && cell_number(c.stretches.front().label) >= 1.0) return;  // turned
     const double most = PositionLimits::most_left_out * static_cast<double>(c.labels.size());
     std::vector<std::string> labels = own_labels(c);
     if (labels.size() > PositionLimits::most_labels) return;

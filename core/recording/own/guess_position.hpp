@@ -51,6 +51,7 @@ class GuessPosition {
   };
 
   static bool begin(Candidate& candidate, std::string_view label);
+  static bool says_turned(Candidate& candidate, double number);
   static bool is_position(const Candidate& candidate, const GuessedFile& file);
 
   /// The numbers of the stretches, where they are not those that a plan has.

@@ -107,5 +107,21 @@ TEST(GuessPosition, ATextThatComesBackBetweenPositionsIsNone) {
             "Lage 10=1 20=2 30=3");
 }
 
+TEST(GuessPosition, ZeroBetweenNumbersThatNoPlanHasIsNoPosition) {
+  const auto guessed = [&](const std::function<std::string(int)>& cell) {
+    return mapping(guess("Lage", cell));
+  };
+  const auto tens = [](int row) { return std::to_string(10 * (row / 20 + 1)); };
+  const std::string listed = "Lage 10=1 20=2 30=3 40=4 50=5 60=6";
+  // Two rows behind every position, the same and the first three rows, one place alone.
+  EXPECT_EQ(guessed([&](int row) { return row % 20 > 17 ? "0" : tens(row); }), listed);
+  EXPECT_EQ(guessed([&](int row) { return row % 20 > 17 || row < 3 ? "0" : tens(row); }), listed);
+  EXPECT_EQ(guessed([&](int row) { return row % 20 > 14 || row < 5 ? "0" : tens(row); }), listed);
+  EXPECT_EQ(guessed([&](int row) { return row > 36 && row < 40 ? "0" : tens(row); }), listed);
+  EXPECT_EQ(guessed([&](int row) { return row < 3 ? "0" : tens(row); }), listed);
+  EXPECT_EQ(guessed([](int row) { return std::to_string(10 * (row / 20)); }),
+            "Lage 0=1 10=2 20=3 30=4 40=5 50=6");
+}
+
 }  // namespace
 }  // namespace drift::guess_position_test
