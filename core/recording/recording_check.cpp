@@ -110,7 +110,8 @@ void check_position(const Recording& r, RowOrder order, Problems& problems) {
   for (std::size_t i = 0; i < r.rows(); ++i) {
     const double p = position->values[i];
     if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
-      problems.add(place_in(r, i, "position"), fmt::format("the position is {}", p),
+      problems.add(place_in(r, i, "position"),
+                   std::isnan(p) ? "no position is given" : fmt::format("the position is {}", p),
                    "a whole number from 1 on",
                    "Give the number of the plan's position, or say in [recording] of the study "
                    "file which is which: positions = { \"NUMBER IN THE FILE\" = NUMBER IN THE "

@@ -181,7 +181,7 @@ std::optional<CsvRows::Complaint> CsvRows::read_position(std::size_t i, std::str
   const auto named = std::ranges::find_if(format_.positions,
                                           [&](const auto& entry) { return entry.first == cell; });
   if (named != format_.positions.end()) {
-    row_[i] = named->second;
+    row_[i] = named->second == 0 ? std::numeric_limits<double>::quiet_NaN() : named->second;
     return std::nullopt;
   }
   const ParsedCell parsed = parse_cell(cell, format_.decimal);

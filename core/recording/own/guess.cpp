@@ -46,7 +46,9 @@ void look_at(GuessedColumn& column, std::string_view cell) {
     ++column.numbers;
   } else if (parsed.kind != ParsedCell::Kind::number) {
     ++column.texts;
+    if (column.last_text == cell && !column.text_rows.empty()) ++column.text_rows.back();
     if (column.last_text == cell) return;
+    if (column.text_rows.size() <= most_words) column.text_rows.push_back(1);
     column.last_text = cell;
     if (std::ranges::find(column.words, cell) != column.words.end())
       column.again.emplace(cell);

@@ -17,6 +17,7 @@ struct GuessedColumn {
   double low = 0.0, high = 0.0;        ///< of the numbers
   std::vector<std::string> words;      ///< the first different texts, in order
   std::string last_text;
+  std::vector<std::size_t> text_rows;        ///< of the first stretches of one text, in order
   std::set<std::string, std::less<>> again;  ///< texts that stand again after another one
   /// Of positions: their numbers in order where one is left out; a plan that is made of the
   /// recording has none of that number.

@@ -8,6 +8,7 @@
 
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/guess_names.hpp"
+#include "core/recording/own/guess_position.hpp"
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -52,10 +53,20 @@ std::string by_size(const GuessedColumn& c, const Unit& stated, const std::strin
   return is_in_kelvins(c, stated) ? "K" : is_in_celsius(c, stated) ? "degC" : written;
 }
 
+/// Whether the first text stands in fewer rows than a position has, as no other does: a remark
+/// before the first position. The last one may be cut short.
+bool begins_with_remark(const GuessedColumn& c) {
+  const auto few = [](std::size_t rows) { return rows < PositionLimits::fewest_rows; };
+  return c.text_rows.size() > 2 && few(c.text_rows.front()) &&
+         std::none_of(c.text_rows.begin() + 1, c.text_rows.end() - 1, few);
+}
+
 /// Whether a text in the column of positions says that it is turned: the only one that comes back,
-/// or the only one beside numbers. One that is the first may be a position to return to.
+/// the only one beside numbers, or a remark before all others. One that is the first may be a
+/// position to return to.
 bool is_turned(const GuessedColumn& c, const std::string& word) {
   const auto is_text = [](const std::string& w) { return std::isnan(cell_number(w)); };
+  if (c.numbers == 0 && c.words.front() == word && begins_with_remark(c)) return true;
   if (c.again.empty())
     return c.numbers > 0 && is_text(word) && std::ranges::count_if(c.words, is_text) == 1;
   return c.again.size() == 1 && c.again.contains(word) && c.words.front() != word;

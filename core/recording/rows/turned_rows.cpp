@@ -34,17 +34,19 @@ std::vector<TurnedStretch> stretches_of(const std::vector<double>& position) {
   return all;
 }
 
-/// Whether rows without a number are there, and lie where a platform is turned.
+/// Whether rows without a number are there, and lie where a platform is turned: between positions,
+/// or before and behind all of them if no number stands there (0 may be that of a first position).
 bool are_turns(const std::vector<double>& position, const std::vector<TurnedStretch>& all) {
-  bool between = false;
+  bool turns = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const TurnedStretch& s = all[i];
     if (!s.none && s.last - s.first < CountLimits::fewest_rows) return false;
-    if (!s.none || i == 0 || i + 1 == all.size()) continue;
-    if (position[s.first - 1] == position[s.last]) return false;
-    between = true;
+    if (!s.none) continue;
+    const bool at_an_end = i == 0 || i + 1 == all.size();
+    if (!at_an_end && position[s.first - 1] == position[s.last]) return false;
+    turns = turns || !at_an_end || std::isnan(position[s.first]);
   }
-  return between;
+  return turns && all.size() > 1;
 }
 
 bool slewed(const Recording& r, const Channel* phase, std::size_t row) {
@@ -94,7 +96,7 @@ void take_turned_rows(Recording& r) {
   if (phase == nullptr && slewing > 0) r.channels.push_back({"phase", unit::one, std::move(slews)});
   const auto rows = [](std::size_t n) { return fmt::format("{} row{}", n, n == 1 ? "" : "s"); };
   std::string text =
-      fmt::format("{} between positions have no number of one, or 0: ", rows(left_out + slewing));
+      fmt::format("{} have no number of a position, or 0: ", rows(left_out + slewing));
   if (slewing > 0) text += fmt::format("{} are taken as the way to the next", rows(slewing));
   if (left_out > 0)
     text += fmt::format("{}{} in which no command turns it are left out", slewing > 0 ? "; " : "",

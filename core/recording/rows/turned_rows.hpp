@@ -15,9 +15,10 @@ void leave_out_rows(Recording& recording, const std::vector<bool>& out);
 /// them is of its neighbour; others are left out, and so are rows before the first position and
 /// behind the last one. A remark says how many.
 ///
-/// Nothing is done where no such row lies between two positions, where one lies within a position,
-/// or where a position has fewer rows than CountLimits::fewest_rows: then its number may be written
-/// where it changes alone.
+/// Nothing is done where rows of 0 and below lie before the first position or behind the last one
+/// alone (they may be counted from 0), where such a row lies within a position, or where a position
+/// has fewer rows than CountLimits::fewest_rows: then its number may be written where it changes
+/// alone.
 void take_turned_rows(Recording& recording);
 
 }  // namespace drift

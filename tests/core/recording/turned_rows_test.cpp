@@ -41,6 +41,15 @@ TEST(TurnedRows, AreLeftOutWhereNoCommandTurnsIt) {
   }
 }
 
+TEST(TurnedRows, BeforeAndBehindAllPositionsAreLeftOutWhereNoNumberStandsThere) {
+  Recording r = rows({nan_value, nan_value, 1, 1, 1, 1, 2, 2, 2, 2, nan_value});
+  take_turned_rows(r);
+  EXPECT_EQ(r.find("position")->values, (std::vector<double>{1, 1, 1, 1, 2, 2, 2, 2}));
+  Recording none = rows({nan_value, nan_value});
+  take_turned_rows(none);
+  EXPECT_EQ(none.rows(), 2u);
+}
+
 TEST(TurnedRows, AreTheWayToTheNextPositionWhereACommandDoes) {
   Recording r = rows({1, 1, 1, 1, 0, 0, 0, 0, 2, 2, 2, 2}, {0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0});
   take_turned_rows(r);
@@ -76,6 +85,29 @@ TEST(TurnedRows, OfAFileAreReadAndSaid) {
       read_recording(path, guess_file(path).format, RecordingKind::platform, gravity);
   EXPECT_EQ(r.rows(), 10u);
   EXPECT_EQ(r.find("position")->values.back(), 2.0);
+}
+
+/// The column of positions of a guessed file with these cells, as it is read.
+std::vector<double> positions_read(const std::vector<std::string>& cells) {
+  const Folder folder;
+  std::string text = "time [s],position,acc_x [g],acc_y [g],acc_z [g]\n";
+  for (std::size_t row = 0; row < cells.size(); ++row)
+    text += fmt::format("{},{},0,0,1\n", row + 1, cells[row]);
+  const std::string path = folder.write("own.csv", text);
+  return read_recording(path, guess_file(path).format, RecordingKind::platform, gravity)
+      .find("position")
+      ->values;
+}
+
+TEST(TurnedRows, ATextBeforeTheFirstPositionIsARemark) {
+  const std::vector<double> expected = {1, 1, 1, 1, 2, 2, 2, 2};
+  EXPECT_EQ(positions_read({"ready", "1", "1", "1", "1", "2", "2", "2", "2"}), expected);
+  EXPECT_EQ(positions_read({"ready", "10", "10", "10", "10", "20", "20", "20", "20"}), expected);
+  EXPECT_EQ(positions_read({"ready", "up", "up", "up", "up", "N", "N", "N", "N"}), expected);
+  EXPECT_EQ(positions_read({"up", "up", "up", "up", "N", "N", "N", "N"}), expected);
+  EXPECT_EQ(positions_read({"up", "N", "W", "W", "W", "W"}),
+            (std::vector<double>{1, 2, 3, 3, 3, 3}))
+      << "positions of a row each";
 }
 
 }  // namespace
