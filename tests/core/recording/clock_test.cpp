@@ -78,6 +78,26 @@ TEST(Clock, MinutesOfADateThatIsLateMayBeOneMinute) {
   EXPECT_EQ(clock.late_dates(), 3u);
 }
 
+TEST(Clock, OneOClockAfterTwelveIsThatOfAClockOfTwelveHours) {
+  const Folder folder;
+  const auto said = [&](const std::string& first, const std::string& second) {
+    const std::string path =
+        folder.write("imu.csv", "time," + imu_header + first + still + second + still);
+    try {
+      read_recording(path, RecordingKind::strapdown, gravity);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  for (const auto& [first, second] : {std::pair{"12:59:58", "01:00:00"}, {"12:40", "1:20"}})
+    EXPECT_NE(said(first, second).find("clock of 12 hours, at one o'clock: write AM or PM"),
+              std::string::npos)
+        << said(first, second);
+  EXPECT_EQ(said("13:59:58", "02:00:00").find("of 12 hours"), std::string::npos);
+  EXPECT_EQ(said("12:59:58 PM", "01:00:00 PM"), "");
+}
+
 /// What Clock makes of a column of times.
 std::vector<double> seconds(Clock& clock, const std::vector<std::string>& cells) {
   std::vector<double> all;
