@@ -15,6 +15,7 @@
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
 #include "core/recording/rows/turned_rows.hpp"
+#include "core/recording/sexagesimal.hpp"
 
 namespace drift {
 namespace {
@@ -226,6 +227,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     r.lines.resize(rows);
     for (std::size_t i = 0; i < rows; ++i) r.lines[i] = i + 1;
   }
+  MinutesAndSeconds angles;
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
     const bool temperature = c.name == "temperature";
@@ -233,11 +235,15 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, said);
     if (temperature && c.name != "temperature") r.unmapped_temperature = said.texts().front();
     r.remarks.add(said);
+    if (c.name.starts_with("gimbal_") && same_unit(unit, unit::deg)) angles.look_at(c.values);
     for (double& x : c.values) x *= c.sign * unit.to_si;
     if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);
     r.channels.push_back({std::move(c.name), unit, std::move(c.values)});
   }
+  if (std::string wrong = angles.text(); !wrong.empty())
+    problems.add("gimbal_outer, gimbal_middle, gimbal_inner", std::move(wrong), "decimal degrees",
+                 "Write 45.3015, if that is 45 deg 30' 15\", as 45 + 30/60 + 15/3600 = 45.504167");
   if (raw.kind == SampleKind::increments && kind == RecordingKind::strapdown)
     make_rates(r, gravity);
   if (raw.settled) {
