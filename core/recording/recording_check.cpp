@@ -12,6 +12,7 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_units.hpp"
 #include "core/recording/rows/check_time.hpp"
+#include "core/recording/rows/commanded_slews.hpp"
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
 #include "core/recording/rows/turned_rows.hpp"
@@ -252,6 +253,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
   }
   if (kind == RecordingKind::platform) {
     take_turned_rows(r);
+    take_commanded_slews(r);
     take_even_times(r);
   }
   const std::size_t before = problems.count();
