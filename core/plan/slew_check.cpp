@@ -116,6 +116,52 @@ std::optional<Unit> unit_of_commands(const Slews& slews, const Unit& said) {
   return std::nullopt;
 }
 
+/// Commands that stand rows too late or too early: with those of other rows, one or two away, the
+/// platform turns as commanded in three rows or more in which it seems not to, and no longer in
+/// none.
+std::optional<RowMistake> shifted_commands(const Recording& recording, const Timeline& timeline) {
+  const auto& all = timeline.intervals;
+  const auto otherwise = [&](std::size_t row, std::size_t commanded) {
+    const auto from = measured(recording, gimbal_channels, row - 1),
+               to = measured(recording, gimbal_channels, row);
+    if (!from || !to || all[row].cage || commanded >= all.size()) return false;
+    const double length = all[row].length();
+    const Vec3 command = length * all[commanded].omega_cmd_p;
+    const Mat3 shown = attitude_shown(recording, timeline.site, row - 1, *from).transpose() *
+                       attitude_shown(recording, timeline.site, row, *to);
+    const double left = rotation_vector(Mat3(rotation<double>(command).transpose() * shown)).norm(),
+                 turn = std::max(command.norm(), rotation_vector(shown).norm());
+    return left > same_turn * std::min(turn, 1.0) && left > fastest_drift * length;
+  };
+  int shift = 0;  // rows by which they are late
+  std::vector<std::size_t> most;
+  for (const int late : {1, -1, 2, -2}) {
+    std::vector<std::size_t> mended;
+    bool broken = false;
+    for (std::size_t row = 1; row < all.size() && !broken; ++row) {
+      const bool before = otherwise(row, row),
+                 now = otherwise(row, row + static_cast<std::size_t>(late));
+      if (before && !now) mended.push_back(row);
+      broken = !before && now;
+    }
+    if (broken || mended.size() <= most.size()) continue;
+    most = mended;
+    shift = late;
+  }
+  if (most.size() < fewest_turns) return std::nullopt;
+  const std::string rows =
+      fmt::format("{} row{}", std::abs(shift), std::abs(shift) == 1 ? "" : "s");
+  return RowMistake{
+      most.front(),
+      fmt::format(
+          "in slews every row turns as the command {} {} it says (expected the command of "
+          "the time since the row before, and the gimbal angles at the end of it). Either "
+          "cmd_x, cmd_y, cmd_z stand {} too {}, or the gimbal angles {} too {}. Correct the "
+          "export",
+          rows, shift > 0 ? "below" : "above", rows, shift > 0 ? "late" : "early", rows,
+          shift > 0 ? "early" : "late")};
+}
+
 }  // namespace
 
 Mat3 local_attitude_shown(const Recording& recording, std::size_t row, const Vec3& angles) {
@@ -134,6 +180,7 @@ std::optional<RowMistake> slew_mistake(const Recording& recording, const Timelin
   const Slews slews(recording, timeline);
   const std::vector<Turn>& turns = slews.turns();
   if (turns.size() < fewest_turns) return std::nullopt;
+  if (auto shifted = shifted_commands(recording, timeline)) return shifted;
   const auto wrong = [&](const Turn& t) { return !(slews.mismatch(t, {}, {}) < same_turn); };
   const auto found = std::ranges::find_if(turns, wrong);
   if (found == turns.end()) return std::nullopt;

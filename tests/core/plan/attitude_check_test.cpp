@@ -66,6 +66,32 @@ TEST(AttitudeCheck, ACommandThatFewSlewsFollowIsToldByThese) {
   }
 }
 
+/// The values of a column so many rows later, or earlier.
+void shift(std::vector<double>& values, int rows) {
+  const std::vector<double> was = values;
+  const int last = static_cast<int>(was.size()) - 1;
+  for (int k = 0; k <= last; ++k)
+    values[static_cast<std::size_t>(k)] =
+        was[static_cast<std::size_t>(std::clamp(k - rows, 0, last))];
+}
+
+TEST(AttitudeCheck, CommandsThatStandRowsTooLateOrTooEarlyAreToldAsThat) {
+  for (const int rows : {1, 2, -1, -2}) {
+    Scene commands("slew12"), gimbals("slew12");
+    for (const char* name : {"cmd_x", "cmd_y", "cmd_z"}) shift(commands.column(name), rows);
+    for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
+      shift(gimbals.column(name), -rows);
+    const std::string said =
+        fmt::format("{} row{} too {}", std::abs(rows), std::abs(rows) == 1 ? "" : "s",
+                    rows > 0 ? "late" : "early");
+    for (Scene* s : {&commands, &gimbals}) {
+      const auto wrong = s->mistakes();
+      ASSERT_EQ(wrong.size(), 1u) << rows;
+      expect_part(wrong.front().text, ("cmd_x, cmd_y, cmd_z stand " + said).c_str());
+    }
+  }
+}
+
 TEST(AttitudeCheck, ASlewThatTurnsOtherwiseThanCommandedIsOfCommandsOrGimbals) {
   using Names = std::pair<const char*, const char*>;
   const auto said = [](const auto& spoil) {
