@@ -123,6 +123,33 @@ bool agree(const std::vector<Sight>& accelerometers, const std::vector<Sight>& g
   });
 }
 
+/// Positions whose first rows are not theirs, if that is all that is wrong: three or more, or as
+/// both kinds of instrument show. Behind rows that were left out one alone may have measured.
+std::optional<RowMistake> rows_of_others(const Recording& recording, const Shown& acc,
+                                         const Shown& gimbals) {
+  std::size_t rows = 0, positions = 0, first = recording.rows();
+  for (const Shown* shown : {&acc, &gimbals}) {
+    if (shown->wrong.empty()) continue;
+    const bool of_acc = shown == &acc;
+    const std::size_t own =
+        rows_on_the_way(recording, shown->wrong, of_acc ? accelerometer_channels : gimbal_channels,
+                        of_acc ? of_accelerometers : of_gimbals);
+    if (own == 0 || shown->reason) return std::nullopt;
+    rows = std::max(rows, own);
+    positions = std::max(positions, shown->wrong.size());
+    first = std::min(first, shown->wrong.front().row);
+  }
+  const bool both = !acc.wrong.empty() && !gimbals.wrong.empty();
+  if (positions < (both ? 1 : fewest_sights)) return std::nullopt;
+  return RowMistake{
+      first,
+      fmt::format("the first rows of {} position{}, up to {}, show another attitude than those "
+                  "behind them, which show that of the plan: rows on the way, or of the "
+                  "position before (expected rows of a position alone). Write 0 as their "
+                  "number, leave them out, or let the number change so much later",
+                  positions, positions == 1 ? "" : "s", rows)};
+}
+
 /// Drift and another latitude bend the way of a platform that is slewed, by half of what parts two
 /// axes at most [rad].
 constexpr double on_the_way = 45.0 * detail::deg;
@@ -205,6 +232,13 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
     if (up.mixed_up || (!right && up.sights.size() > acc.sights.size())) acc = std::move(up);
     if (!right && on_way.sights.size() > gimbals.sights.size()) gimbals = std::move(on_way);
   }
+  if (numbers_early(recording, acc.wrong, accelerometer_channels, of_accelerometers) &&
+      numbers_early(recording, gimbals.wrong, gimbal_channels, of_gimbals) &&
+      agree(acc.sights, gimbals.sights))
+    return {
+        {gimbals.wrong.front().row,
+         first_rows_text(gimbals.wrong.size(), "the numbers of the positions change a row early")}};
+  if (auto way = rows_of_others(recording, acc, gimbals)) return {*way};
   if (!gimbals.wrong.empty() && !gimbals.reason)
     if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
       gimbals.reason = fmt::format(
@@ -217,12 +251,6 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
   const bool few = 2 * gimbals.wrong.size() < gimbals.sights.size() && acc.wrong.empty();
   const std::string another_unit = few ? unit_there(gimbals.wrong, units_of(recording)) : "";
   std::vector<RowMistake> all;
-  if (numbers_early(recording, acc.wrong, accelerometer_channels, of_accelerometers) &&
-      numbers_early(recording, gimbals.wrong, gimbal_channels, of_gimbals) &&
-      agree(acc.sights, gimbals.sights))
-    return {
-        {gimbals.wrong.front().row,
-         first_rows_text(gimbals.wrong.size(), "the numbers of the positions change a row early")}};
   // Two instruments that agree with each other are right: what is wrong is the plan.
   if (!acc.wrong.empty() && !gimbals.wrong.empty() && !(acc.reason && gimbals.reason) &&
       agree(acc.sights, gimbals.sights))

@@ -81,6 +81,30 @@ std::vector<std::size_t> late_columns(const Recording& recording, const std::vec
   return {};
 }
 
+std::size_t rows_on_the_way(const Recording& recording, const std::vector<Sight>& wrong,
+                            const ChannelTriple& channels, Mismatch mismatch) {
+  constexpr std::size_t part = 4;
+  const Channel *position = recording.find("position"), *heading = recording.find("case_heading");
+  if (position == nullptr) return 0;
+  std::size_t most = 0;
+  for (Sight s : wrong) {
+    const auto same = [&](std::size_t row) {
+      return row < recording.rows() && position->values[row] == position->values[s.row];
+    };
+    const double first = mismatch(s, s.seen);
+    std::size_t end = s.row, row = s.row + 1;
+    while (same(end)) ++end;
+    for (const std::size_t last = s.row + (end - s.row) / part; row <= last; ++row) {
+      const auto seen = measured(recording, channels, row);
+      if (heading != nullptr) s.heading = heading->values[row];
+      if (seen && mismatch(s, *seen) < std::min(largest_mismatch, 0.5 * first)) break;
+      if (row == last) return 0;
+    }
+    most = std::max(most, row - s.row);
+  }
+  return most;
+}
+
 bool numbers_early(const Recording& recording, const std::vector<Sight>& wrong,
                    const ChannelTriple& channels, Mismatch mismatch) {
   const Channel* heading = recording.find("case_heading");

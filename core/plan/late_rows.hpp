@@ -19,6 +19,12 @@ using Mismatch = double (*)(const Sight&, const Vec3& seen);
 std::vector<std::size_t> late_columns(const Recording& recording, const std::vector<Sight>& wrong,
                                       const ChannelTriple& channels, Mismatch mismatch);
 
+/// How many rows at most stand in these positions before one that shows the attitude of the plan,
+/// and is less than half as far from it, in the first quarter of each: rows on the way, or of the
+/// position before. 0 where one of the positions does not come there so.
+std::size_t rows_on_the_way(const Recording& recording, const std::vector<Sight>& wrong,
+                            const ChannelTriple& channels, Mismatch mismatch);
+
 /// Whether all columns do, and the heading of the case as well: the number of the position changes
 /// a row early.
 bool numbers_early(const Recording& recording, const std::vector<Sight>& wrong,

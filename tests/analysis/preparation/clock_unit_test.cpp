@@ -96,7 +96,7 @@ TEST(ClockUnit, RowsOnTheWayUnderTheNextNumberAreNoOtherUnit) {
     prepare(s, {r});
     FAIL() << "read";
   } catch (const InputError& error) {
-    EXPECT_TRUE(says(error.what(), "the first 5 rows of 5 positions")) << error.what();
+    EXPECT_TRUE(says(error.what(), "the first rows of 5 positions, up to 5")) << error.what();
   }
 }
 

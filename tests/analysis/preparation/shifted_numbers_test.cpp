@@ -51,5 +51,48 @@ TEST(ShiftedNumbers, OneRowOrTurnsInTheMiddleAreNone) {
   EXPECT_EQ(shifted_numbers(shifted(right, 3), slewed.plan), "");
 }
 
+/// The number of one position alone comes late: the platform jumps before it, and not with it.
+TEST(ShiftedNumbers, OneNumberThatIsLateIsTold) {
+  const mc::Study study = test::six_study();
+  Recording late = test::simulated(study), turned = late;
+  std::vector<double>& position = test::channel(late, "position");
+  for (std::size_t k = position.size() - 1; k > 1; --k)
+    if (position[k] == 3.0 && position[k - 2] == 2.0) position[k] = 2.0;
+  const std::string said = shifted_numbers(late, study.plan);
+  EXPECT_NE(said.find("the last rows of 1 position, up to 2, show the platform in the next"),
+            std::string::npos)
+      << said;
+  // One that is turned in the end of a position and caged anew behind it may be right.
+  const std::vector<double>& number = test::channel(turned, "position");
+  for (std::size_t k = 2; k < number.size(); ++k)
+    if (number[k] == 2.0 && number[k - 1] == 1.0)
+      for (const std::size_t row : {k - 2, k - 1})
+        test::channel(turned, "gimbal_outer")[row] += 0.7;
+  EXPECT_EQ(shifted_numbers(turned, study.plan), "");
+}
+
+/// Rows on the way behind the numbers of where it begins; a reading that is none turns nothing.
+TEST(ShiftedNumbers, RowsOnTheWayAtTheEndOfPositionsAreToldAsThat) {
+  const mc::Study study = test::six_study();
+  Recording turned = test::simulated(study), spikes = turned;
+  const std::vector<double> position = turned.find("position")->values;
+  const auto& time = turned.find("time")->values;
+  std::size_t changes = 0;
+  for (std::size_t k = 0; k + 1 < time.size(); ++k) {
+    if (position[k] == position[k + 1]) continue;
+    ++changes;
+    for (std::size_t back = 0; back < 2 + changes % 2; ++back)
+      test::channel(turned, "gimbal_outer")[k - back] += 0.7 - 0.2 * static_cast<double>(back);
+    test::channel(spikes, "gimbal_outer")[k - 1 - changes % 2] += 0.7;
+  }
+  const std::string said = shifted_numbers(turned, study.plan);
+  EXPECT_NE(
+      said.find(
+          "the last rows of 5 positions, up to 3, show the platform in the next or on the way"),
+      std::string::npos)
+      << said;
+  EXPECT_EQ(shifted_numbers(spikes, study.plan), "");
+}
+
 }  // namespace
 }  // namespace drift::shifted_numbers_test

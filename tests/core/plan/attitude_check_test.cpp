@@ -75,6 +75,25 @@ void shift(std::vector<double>& values, int rows) {
         was[static_cast<std::size_t>(std::clamp(k - rows, 0, last))];
 }
 
+/// The numbers come too early, or rows on the way have the number of where it leads.
+TEST(AttitudeCheck, FirstRowsThatShowAnotherAttitudeAreToldAsThat) {
+  for (const auto& [rows, last] : {std::pair<std::size_t, double>{2, 12.0}, {3, 12.0}, {2, 2.0}}) {
+    Scene s;
+    const std::vector<double> position = s.column("position");
+    for (std::size_t k = rows; k < position.size(); ++k)
+      if (position[k] != position[k - rows] && position[k] <= last)
+        for (Channel& c : s.recording.channels)
+          if (c.name.starts_with("acc_") || c.name.starts_with("gimbal_"))
+            c.values[k] = c.values[k - 1];
+    const auto wrong = s.mistakes();
+    ASSERT_EQ(wrong.size(), 1u) << rows;
+    expect_part(wrong.front().text,
+                fmt::format("the first rows of {} position{}, up to {}, show another", last - 1.0,
+                            last > 2.0 ? "s" : "", rows)
+                    .c_str());
+  }
+}
+
 TEST(AttitudeCheck, CommandsThatStandRowsTooLateOrTooEarlyAreToldAsThat) {
   for (const int rows : {1, 2, -1, -2}) {
     Scene commands("slew12"), gimbals("slew12");
