@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "analysis/cli/shell/two_ups.hpp"
@@ -98,31 +97,37 @@ double in_whole_samples(double length, double sample) {
   return std::round(length / sample) * sample;
 }
 
-/// The row of a dwell's first ones that shows its attitude: the second, where the first is of the
-/// turn or of the position before (a jump between them, none behind).
+/// The first row of a dwell that shows its attitude: where the platform is a quarter of it later.
+/// Rows before it are of the turn or of the position before.
 std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t end) {
   if (first + 2 >= end) return first;
-  std::array<Mat3, 3> R_rp;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto angles = measured(r, gimbal_channels, first + k);
-    if (!angles) return first;
-    R_rp[k] = gimbal_chain(*angles);
-  }
-  const auto turned = [&](std::size_t k) {
-    return rotation_vector(R_rp[k].transpose() * R_rp[k + 1]).norm();
-  };
-  return turned(0) > largest_mismatch && turned(1) < 0.1 * turned(0) ? first + 1 : first;
+  const auto& time = r.find("time")->values;
+  const double free = largest_mismatch / detail::earth_rate;  // [s] that drift needs for that
+  std::size_t later = first + std::max<std::size_t>(1, (end - first) / 4);
+  while (later > first + 1 && time[later] - time[first] > free) --later;
+  const auto there = measured(r, gimbal_channels, later);
+  for (std::size_t row = first; there && row < later; ++row)
+    if (const auto angles = measured(r, gimbal_channels, row);
+        angles &&
+        rotation_vector(Mat3(gimbal_chain(*angles).transpose() * gimbal_chain(*there))).norm() <
+            largest_mismatch)
+      return row;
+  return there ? later : first;
 }
 
-/// The row of a dwell's last ones whose heading is its own: the last but one, where the case turns
-/// behind it as to another position and stood before.
+/// The last row of a dwell whose heading is its own: that of the row a quarter before its end, if
+/// the case stood there. Rows behind it are of the turn or of the next position.
 std::size_t row_of_heading(const std::vector<double>& heading, std::size_t first, std::size_t end) {
   if (first + 2 >= end) return end - 1;
-  const auto turned = [&](std::size_t k) {
-    return std::abs(std::remainder(heading[k] - heading[k - 1], 360.0 * detail::deg));
+  const std::size_t own = end - 1 - std::max<std::size_t>(1, (end - first) / 4);
+  const auto apart = [&](std::size_t row) {
+    return std::abs(std::remainder(heading[row] - heading[own], 360.0 * detail::deg));
   };
-  const bool late = turned(end - 1) > largest_mismatch && turned(end - 2) < 0.1 * turned(end - 1);
-  return late ? end - 2 : end - 1;
+  std::size_t row = end - 1;
+  constexpr double stands = 0.1 * largest_mismatch;
+  if (apart((first + own) / 2) > stands) return row;  // it is turned all the while
+  while (apart(row) > stands) --row;
+  return row;
 }
 
 }  // namespace
@@ -152,7 +157,7 @@ RecordedPlan recorded_plan(const Recording& r) {
     const auto turned = cardinal_axes(r, shows, p.heading.value_or(0.0) + 45.0 * detail::deg);
     if (!heading && shown && turned && shown->size() > turned->size()) p.turned = *turned;
     p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
-    const std::size_t row = std::min(dwell + 2, end - 1);  // the first may be of the turn
+    const std::size_t row = std::min(shows + 2, end - 1);  // the first may be of the turn
     const auto force = measured(r, accelerometer_channels, row),
                angles = measured(r, gimbal_channels, row);
     if (force && angles) {

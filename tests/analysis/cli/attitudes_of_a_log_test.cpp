@@ -11,6 +11,7 @@
 
 #include "core/base/units.hpp"
 #include "core/recording/recording.hpp"
+#include "tests/support/log_edits.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/short_study.hpp"
 
@@ -101,6 +102,36 @@ TEST(AttitudesOfALog, TheUnitOfGimbalAnglesIsThatInWhichTheyHaveUpAsTheAccelerom
     const auto fit = driftscope("identify '" + lab + "' '" + log + "' --quiet");
     EXPECT_EQ(fit.code, 0) << fit.err;
   }
+}
+
+/// A number that is late or early by rows: attitude and heading are those of the middle.
+TEST(AttitudesOfALog, RowsOfAnotherPositionAtEitherEndChangeNoAttitude) {
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  const std::string text = text_of(own);
+  std::vector<std::string> was;
+  with_column(text, "position", [&](const std::string& cell) {
+    was.push_back(cell);
+    return cell;
+  });
+  const auto attitudes = [&](std::ptrdiff_t late) {
+    std::ptrdiff_t row = 0;
+    folder.write("late.csv", with_column(text, "position", [&](const std::string&) {
+                   const std::ptrdiff_t from = row++ - late, last = std::ssize(was) - 1;
+                   return was[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(from, 0, last))];
+                 }));
+    const std::string file = folder.file(fmt::format("late{}.toml", late));
+    EXPECT_EQ(driftscope("new platform " + folder.file("late.csv") + " -o " + file).code, 0);
+    std::string lines;
+    std::istringstream study(text_of(file));
+    for (std::string line; std::getline(study, line);)
+      if (line.starts_with("axes") || line.starts_with("case_heading")) lines += line + "\n";
+    return lines;
+  };
+  const std::string right = attitudes(0);
+  EXPECT_TRUE(has(right, "case_heading")) << right;
+  for (const int late : {-2, -1, 1, 2}) EXPECT_EQ(attitudes(late), right) << late;
 }
 
 }  // namespace
