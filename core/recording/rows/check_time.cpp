@@ -30,25 +30,23 @@ bool report_shared_times(const Recording& r, const Channel& time, Problems& prob
   return true;
 }
 
-/// Whether a step back in time [s] may be that of a clock of 12 hours without AM and PM.
-bool begins_again_at_one(const Recording& r, double before, double after) {
+/// Whether the time steps back as a clock of 12 hours without AM and PM does at one o'clock,
+/// whatever else is wrong with it. Said once.
+bool report_twelve_hours(const Recording& r, const Channel& time, Problems& problems) {
   const auto zero = std::ranges::find(r.facts, "time_zero", [](const auto& f) { return f.first; });
   const auto clock = zero == r.facts.end() ? std::nullopt : parse_clock(zero->second);
   const auto hour = [&](double t) { return std::floor(std::fmod(*clock + t, 86400.0) / 3600.0); };
-  return clock && hour(before) == 12.0 && hour(after) == 1.0;
-}
-
-std::string what_to_do(const Recording& r, double before, double after) {
-  if (begins_again_at_one(r, before, after))
-    return "This seems to be a clock of 12 hours, at one o'clock: write AM or PM behind the times, "
-           "or hours from 0 to 23 (13:00 after 12:59)";
-  return begins_again_at_midnight(before, after)
-             ? "If this is a clock that begins again at midnight, read it as a counter in "
-               "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
-               "and wrap = 86400000, or what a count is, and how many make a day"
-             : "Remove rows that were written twice; if a clock begins again here (in each "
-               "position, in autumn, where a counter is full), write times that go on, or read it "
-               "as a counter of [recording]; sort only rows that are out of order";
+  for (std::size_t i = 1; clock && i < r.rows(); ++i) {
+    const double before = time.values[i - 1], after = time.values[i];
+    if (!(after < before) || hour(before) != 12.0 || hour(after) != 1.0) continue;
+    problems.add(place_in(r, i, "time"),
+                 fmt::format("{} s comes after {} s at {}", after, before, r.lines[i - 1]),
+                 "time to increase from row to row",
+                 "This seems to be a clock of 12 hours, at one o'clock: write AM or PM behind the "
+                 "times, or hours from 0 to 23 (13:00 after 12:59)");
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -64,7 +62,8 @@ bool begins_again_at_midnight(double before, double after) {
 
 void check_time(const Recording& r, Problems& problems) {
   const Channel* time = r.find("time");
-  if (!time || report_shared_times(r, *time, problems)) return;
+  if (!time || report_twelve_hours(r, *time, problems) || report_shared_times(r, *time, problems))
+    return;
   double last = -HUGE_VAL;
   std::size_t last_row = 0;
   for (std::size_t i = 0; i < r.rows(); ++i) {
@@ -73,12 +72,19 @@ void check_time(const Recording& r, Problems& problems) {
       problems.add(place_in(r, i, "time"), "the time is missing", "a number in every row",
                    "Give the time");
     } else if (!(t > last)) {
-      problems.add(place_in(r, i, "time"),
-                   fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
-                               r.lines[last_row]),
-                   "time to increase from row to row", what_to_do(r, last, t));
-      if (begins_again_at_midnight(last, t) || begins_again_at_one(r, last, t))
-        last = -HUGE_VAL;  // said once
+      problems.add(
+          place_in(r, i, "time"),
+          fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
+                      r.lines[last_row]),
+          "time to increase from row to row",
+          begins_again_at_midnight(last, t)
+              ? "If this is a clock that begins again at midnight, read it as a counter in "
+                "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
+                "and wrap = 86400000, or what a count is, and how many make a day"
+              : "Remove rows that were written twice; if a clock begins again here (in each "
+                "position, in autumn, where a counter is full), write times that go on, or "
+                "read it as a counter of [recording]; sort only rows that are out of order");
+      if (begins_again_at_midnight(last, t)) last = -HUGE_VAL;  // said once
     }
     if (t > last) {
       last = t;

@@ -94,6 +94,9 @@ TEST(Clock, OneOClockAfterTwelveIsThatOfAClockOfTwelveHours) {
     EXPECT_NE(said(first, second).find("clock of 12 hours, at one o'clock: write AM or PM"),
               std::string::npos)
         << said(first, second);
+  const std::string minutes = said(std::string("12:59") + still + "12:59", "01:00");
+  EXPECT_NE(minutes.find("4:time: -43140 s comes after 0 s at 3"), std::string::npos) << minutes;
+  EXPECT_EQ(minutes.find("repeats"), std::string::npos) << "no more is to be said";
   EXPECT_EQ(said("13:59:58", "02:00:00").find("of 12 hours"), std::string::npos);
   EXPECT_EQ(said("12:59:58 PM", "01:00:00 PM"), "");
 }
