@@ -52,7 +52,7 @@ inline Recording second_by_second(mc::Study study) {
                         study.readout);
 }
 
-namespace detail {
+namespace rows_kept {
 
 /// A row that is kept: rows [first, end) of the fine recording, and the minute it ends nearest to.
 struct Kept {
@@ -94,7 +94,7 @@ inline std::vector<Kept> kept_rows(const Recording& fine, Rows rows, Stream& ran
   return all;
 }
 
-}  // namespace detail
+}  // namespace rows_kept
 
 /// A recording of one row a second as a logger would have kept it. gimbal_noise [rad]: of a
 /// reading, one and the same for all readings nearest to a minute, so that what loggers of other
@@ -102,13 +102,13 @@ inline std::vector<Kept> kept_rows(const Recording& fine, Rows rows, Stream& ran
 inline Recording with_rows(const Recording& fine, Rows rows, double gimbal_noise = 0.0,
                            std::uint64_t seed = 1) {
   Stream random(seed, 0, Purpose::test);
-  std::vector<detail::Kept> kept = detail::kept_rows(fine, rows, random);
+  std::vector<rows_kept::Kept> kept = rows_kept::kept_rows(fine, rows, random);
   if (rows == Rows::minutes_lost || rows == Rows::seconds_lost)
-    std::erase_if(kept, [&](const detail::Kept&) { return random.uniform() < 0.1; });
+    std::erase_if(kept, [&](const rows_kept::Kept&) { return random.uniform() < 0.1; });
   Recording out;
   for (const Channel& c : fine.channels) {
     Channel thin{c.name, c.unit, {}};
-    for (const detail::Kept& row : kept) {
+    for (const rows_kept::Kept& row : kept) {
       double sum = 0.0;
       for (std::size_t k = row.first; k < row.end; ++k) sum += c.values[k];
       double value = c.values[row.end - 1];
