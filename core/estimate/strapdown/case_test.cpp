@@ -130,6 +130,14 @@ class Layout {
     return carry_ == Carry::through ? longest_turn_row : longest_turn_row_one_way;
   }
 
+  /// The fastest rate of the samples behind `first` up to `last` [rad/s].
+  double fastest(std::size_t first, std::size_t last) const {
+    double rate = 0.0;
+    for (std::size_t k = first + 1; k <= last; ++k)
+      rate = std::max(rate, (signals_.gyro[k] - drift_).norm());
+    return rate;
+  }
+
   /// Whether a row that has turned so far, from readings that sum up to `sum`, takes one more.
   bool has_room(const Mat3& R, const Vec3& sum, std::size_t k, double length) const {
     const Vec3 angle = rotation_vector(R), next = turned(signals_, k + 1, drift_);
@@ -149,12 +157,16 @@ class Layout {
     const bool reads_turn = what == What::way && test_.timeline.reads_turns;
     const std::size_t start = at_;
     std::vector<Vec3> f;
+    const bool steady = what == What::way && !reads_turn;
+    const double change = steady ? largest_change * fastest(at_, last) : 0.0;
     if (reads_turn) f = carried_force(signals_, at_, last, dwells_[d - 1].acc, dwells_[d].acc);
     for (std::size_t k = at_ + 1; k <= last; ++k) {
       R = R * rotation(turned(signals_, k, drift_));
       sum += turned(signals_, k, drift_);
       const double length = signals_.time[k] - signals_.time[begin];
-      if (k < last && has_room(R, sum, k, length)) continue;
+      const bool alike =
+          !steady || k == last || (signals_.gyro[k + 1] - signals_.gyro[begin]).norm() < change;
+      if (k < last && alike && has_room(R, sum, k, length)) continue;
       Interval i;
       i.t0 = signals_.time[begin];
       i.t1 = signals_.time[k];

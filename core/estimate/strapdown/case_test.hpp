@@ -46,6 +46,11 @@ inline constexpr double longest_turn_row = 0.04, longest_way_row = 1.0;
 /// each other counts: 2 e times the `bend`, by which the turn of a row differs from the sum of its
 /// samples', 5e-4 e.
 inline constexpr double longest_turn_row_one_way = 0.25, largest_bend = 2.5e-4;
+/// Part of a way's fastest rate by which the rate may change within a row. What depends on the rate
+/// otherwise than linearly (torquer_nonlinearity) is worked out at its mean: of a change d of the
+/// rate its square is off by d^2 / 12, a thousandth, where ramps are all that tells it from a scale
+/// factor. Not where accelerometers are read on the way: their rows end where the rate is steady.
+inline constexpr double largest_change = 0.1;
 /// A row in which accelerometers are read ends where the rate is steady, if it can (speeds_up): it
 /// may be so many times longer until then.
 inline constexpr double longer_while_speeding_up = 3.0;
