@@ -132,8 +132,7 @@ NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
   for (std::size_t k = 0; k < m.active.size(); ++k) {
     const NoiseComponent& c = *m.active[k].component;
     const NoiseFinding& f = out.findings[k];
-    out.driven =
-        out.driven || (!c.white() && (!c.in(declared) || (f.significant && f.factor > 1.0)));
+    out.driven = out.driven || (!c.white() && (!c.in(declared) || f.factor > 1.0));
     out.components.push_back(&c);
   }
   return out;

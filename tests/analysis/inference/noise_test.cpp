@@ -70,8 +70,15 @@ TEST(Noise, MoreOfADeclaredKindThanDeclaredMayBeAnEffect) {
   const LinearProblem problem = problem_of(truth, 0, 1.0);
   NoiseModel declared;
   declared.angle_random_walk = truth.noise.angle_random_walk;
+  const double found = estimate_noise(problem, declared).model.angle_random_walk;
+  declared.angle_random_walk = 1.02 * found;
   EXPECT_FALSE(estimate_noise(problem, declared).driven);
-  declared.angle_random_walk *= 0.25;
+  // What is no rarer than chance may hide an effect as well as what is.
+  declared.angle_random_walk = 0.98 * found;
+  const NoiseEstimate little = estimate_noise(problem, declared);
+  EXPECT_TRUE(little.driven);
+  EXPECT_FALSE(find(little, "angle_random_walk")->significant);
+  declared.angle_random_walk = 0.25 * found;
   const NoiseEstimate more = estimate_noise(problem, declared);
   EXPECT_TRUE(more.driven);
   EXPECT_GT(find(more, "angle_random_walk")->factor, 2.0);
