@@ -67,6 +67,7 @@ search::CandidateScore line_of(const search::Fitted& nominal, const search::Sear
   if (c.params.size() == 1 && s.dof == 1) {
     const double scale = spec.prior.sigma();  // file unit per prior sigma
     const double information = p.C(v.columns[0], v.columns[0]);
+    line.param = c.params.front();
     line.amplitude = p.g[v.columns[0]] / information * scale;
     line.sigma = scale / std::sqrt(information);
     line.smallest_detectable = detectable_z(found.thresholds.library_threshold) * line.sigma;

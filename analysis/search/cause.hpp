@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,6 +77,7 @@ struct CandidateScore {
   double p_value = 1.0;     ///< family-wise
   double p_marginal = 1.0;  ///< of this candidate alone
   double absorbed = 0.0;    ///< part of the raw signature that fitted parameters take up, 0..1
+  std::optional<std::size_t> param;  ///< index in TermLibrary, where there is only one
   double amplitude = 0.0,
          sigma = 0.0;  ///< expected parameter change and its sigma, in `unit` (one degree)
   double smallest_detectable = 0.0;  ///< amplitude found with 80 % probability, in `unit`

@@ -81,6 +81,13 @@ void sense(Diagnosis& d, const BatchResult& fit) {
   for (search::Cause& cause : d.causes)
     for (search::CauseParameter& p : cause.parameters) sense(p, after);
   for (diagnosis::ShiftedParameter& p : d.fit.shifted) sense(p, before, after);
+  for (search::CandidateScore& c : d.candidates)
+    if (c.param) {
+      search::CauseParameter p{c.label, *c.param, c.amplitude, c.sigma, c.unit};
+      sense(p, before);
+      c.amplitude = p.value;
+      c.sigma = p.sigma;
+    }
 }
 
 /// Of D_I_x, D_I_y and D_I_z as causes what differs between them.

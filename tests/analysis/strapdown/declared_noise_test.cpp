@@ -1,6 +1,7 @@
 // Gyros that see the Earth: an effect in every turn looks like more noise of the declared kind.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/case_unit.hpp"
@@ -32,6 +33,12 @@ TEST(DeclaredNoise, AnAsymmetryIsNoLargerNoiseOfTheGyros) {
     EXPECT_EQ(d["causes"][0]["axis"], "y");
     const auto& p = d["causes"][0]["parameters"][0];
     EXPECT_NEAR(std::abs(p["value"].get<double>()), ppm, 4.0 * p["sigma"].get<double>());
+    // The table of candidates is in the sensors' convention, too: of the same sign.
+    const auto line = std::ranges::find_if(
+        d["candidates"], [](const auto& c) { return c["label"] == "torquer_asymmetry.y"; });
+    ASSERT_NE(line, d["candidates"].end());
+    EXPECT_NEAR((*line)["amplitude"].get<double>(), p["value"].get<double>(),
+                4.0 * (*line)["sigma"].get<double>());
   }
 }
 
