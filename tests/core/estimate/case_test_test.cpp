@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/estimate/batch.hpp"
@@ -28,6 +29,33 @@ TEST(CaseTest, RestsAndWaysAreLaidOutAndTheGyrosFindNorth) {
   // White noise of one sample, averaged over a row.
   EXPECT_NEAR(u.test.readout.accelerometer_noise, 1e-4 / std::sqrt(u.test.row / 0.01), 5e-7);
   EXPECT_NEAR(u.test.angle_random_walk, 3e-6 * std::sqrt(0.01), 3e-8);
+}
+
+/// Closed form: the case rests, speeds up evenly to 10 deg/s, turns, slows down and rests again.
+TEST(CaseTest, RowsOnTheWayKnowTheSquareOfTheRate) {
+  constexpr double fastest = 10.0 * drift::detail::deg, ramp = 0.5, even = 4.0, rest = 5.0;
+  Signals signals;
+  signals.interval = 0.01;
+  const int samples = static_cast<int>(std::lround((2.0 * rest + 2.0 * ramp + even) / 0.01));
+  for (int k = 1; k <= samples; ++k) {
+    const double t = 0.01 * k, on = t - rest, left = rest + 2.0 * ramp + even - t;
+    signals.time.push_back(t);
+    signals.gyro.push_back(fastest * std::clamp(std::min(on, left) / ramp, 0.0, 1.0) *
+                           Vec3::UnitZ());
+    signals.acc.push_back(Vec3::UnitZ());
+  }
+  const CaseTest test =
+      lay_out_case(signals, find_dwells(signals, {}).dwells, site, Carry::through);
+  double angle = 0.0, square = 0.0;
+  for (const Interval& i : test.timeline.intervals) {
+    if (!i.slew) continue;
+    angle += i.length() * i.omega_cmd_p.z();
+    square += i.length() * i.omega_cmd_p.squaredNorm();
+  }
+  EXPECT_NEAR(angle, fastest * (even + ramp), 1e-9);
+  // Each row on a ramp lacks the variance of its rates.
+  const double lacks = largest_change * largest_change / 12.0 * 2.0 * ramp;
+  EXPECT_NEAR(square / (fastest * fastest), even + 2.0 * ramp / 3.0, lacks);
 }
 
 /// Second implementation: what the rows say of a small change is what the prediction does.
