@@ -157,7 +157,7 @@ class Layout {
     const bool reads_turn = what == What::way && test_.timeline.reads_turns;
     const std::size_t start = at_;
     std::vector<Vec3> f;
-    const bool steady = what == What::way && !reads_turn;
+    const bool steady = carry_ == Carry::through && what == What::way && !reads_turn;
     const double change = steady ? largest_change * fastest(at_, last) : 0.0;
     if (reads_turn) f = carried_force(signals_, at_, last, dwells_[d - 1].acc, dwells_[d].acc);
     for (std::size_t k = at_ + 1; k <= last; ++k) {

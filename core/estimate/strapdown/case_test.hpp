@@ -49,7 +49,9 @@ inline constexpr double longest_turn_row_one_way = 0.25, largest_bend = 2.5e-4;
 /// Part of a way's fastest rate by which the rate may change within a row. What depends on the rate
 /// otherwise than linearly (torquer_nonlinearity) is worked out at its mean: of a change d of the
 /// rate its square is off by d^2 / 12, a thousandth, where ramps are all that tells it from a scale
-/// factor. Not where accelerometers are read on the way: their rows end where the rate is steady.
+/// factor. Not where accelerometers are read on the way: their rows end where the rate is steady;
+/// nor over one way alone (longest_turn_row_one_way), where it would be three times the work: a
+/// hand turns at all rates, and ramps are not all that tells.
 inline constexpr double largest_change = 0.1;
 /// A row in which accelerometers are read ends where the rate is steady, if it can (speeds_up): it
 /// may be so many times longer until then.
