@@ -208,10 +208,10 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
         inference::equation_name(period->equation, period->axis), period->period_s,
         period->amplitude() / shown.to_si, std::string(shown.symbol.view()), period->p_value(),
         !found.sets.empty()});
-  } else if (found.sets.empty() && nominal.lone.p_value < inference::RemarkLimits::lone_p)
-    out.remarks.emplace_back(
-        remark::FreeInputExplains{nominal.lone.equation, nominal.lone.gain,
-                                  nominal.lone.input.tau == inference::LoneInput::constant});
+  } else if (const inference::LoneEffect& lone = nominal.unknown->lone;
+             found.sets.empty() && lone.p_value < inference::RemarkLimits::lone_p)
+    out.remarks.emplace_back(remark::FreeInputExplains{
+        lone.equation, lone.gain, lone.input.tau == inference::LoneInput::constant});
   for (const search::Cause& c : out.causes)
     if (c.term == closure_term) out.remarks.emplace_back(remark::CrosstalkMovesLambda{});
   return out;

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/plan/attitude_slips.hpp"
+#include "core/stats/normal.hpp"
 
 /// Every number by which recordings, plan and site are judged before a fit; those of the diagnosis
 /// are in analysis/inference/thresholds.hpp, which says how to read them. Tests are those of
@@ -92,9 +93,9 @@ struct GimbalZeroLimits {
   /// Test: GimbalZero.*
   static constexpr double least = 5.0, left = 5.0;
   static constexpr double clearly = 2.0;  ///< times as much is left by every other gimbal
-  /// Chance of what a change of sign takes away, if that is of no sign: as of 5 sigma. In six
-  /// positions a quarter may be left. Test: GimbalSign.*
-  static constexpr double sign_by_chance = 6e-7;
+  /// Chance of what a change of sign takes away, if that is of no sign. In six positions a quarter
+  /// may be left. Test: GimbalSign.*
+  static constexpr double sign_by_chance = stats::beyond_5_sigma;
   static constexpr std::size_t positions = 3;  ///< fewer fit several guesses
   static constexpr double shown = 0.05;        ///< part of a zero that Up must show, squared, mean
 };

@@ -43,7 +43,8 @@ bool covers(const Fitted& e, const Refit& wide, const Refit& narrow) {
 /// Log evidence, against the nominal model, of something unknown in one equation; every equation,
 /// form and period alike.
 double log_unknown(const Fitted& e) {
-  return std::max(0.5 * e.lone.gain - std::log(WeighLimits::forms), e.periodic.log_evidence());
+  return std::max(0.5 * e.unknown->lone.gain - std::log(WeighLimits::forms),
+                  e.unknown->periodic.log_evidence());
 }
 
 /// Whether two single explanations are one cause of which only the part is open: the same term, and

@@ -51,9 +51,9 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
   out.pairs = pair_null(nominal, std::max(200, options.draws / 8));
   if (const auto pairs = strongest_pairs(nominal, 1); !pairs.empty())
     out.p_pairs = out.pairs.p_value(pairs.front().strength);
-  nominal.look_for_unknown_inputs();
-  out.p_lone = nominal.lone.p_value;
-  out.p_periodic = nominal.periodic.p_value();
+  nominal.unknown = nominal.strongest_inputs();
+  out.p_lone = nominal.unknown->lone.p_value;
+  out.p_periodic = nominal.unknown->periodic.p_value();
   out.p_value = std::min(
       {1.0, out.p_library / SearchLimits::library_share, out.p_scan / SearchLimits::scan_share,
        out.p_pairs / SearchLimits::pair_share, out.p_lone / SearchLimits::lone_share,

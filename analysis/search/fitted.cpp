@@ -37,7 +37,7 @@ Fitted linearised(const FilterSpec& filter, const MeasuredTest& test, const Batc
   }
   const inference::KnownSignatures known{beside->filter, beside->fit, beside->set.signatures,
                                          beside->problem.extra};
-  f.scores_alone = true;
+  f.cross = inference::Cross::left_out;
   f.problem = inference::linear_problem(filter, test, fit, f.set.signatures, &known);
   return f;
 }
@@ -95,10 +95,10 @@ inference::NoiseModel declared_noise(const FilterSpec& filter) {
   return m;
 }
 
-void Fitted::look_for_unknown_inputs() {
-  lone = inference::strongest_lone_input(problem, noise.model);
-  periodic = inference::strongest_periodic_input(problem, *projector);
-  looked = true;
+StrongestInputs Fitted::strongest_inputs() const {
+  return unknown ? *unknown
+                 : StrongestInputs{inference::strongest_lone_input(problem, noise.model),
+                                   inference::strongest_periodic_input(problem, *projector)};
 }
 
 double Fitted::log_gain_of_misalignments() const {
@@ -106,10 +106,9 @@ double Fitted::log_gain_of_misalignments() const {
 }
 
 const inference::PeriodicInput* Fitted::leading_period() const {
-  const bool there = periodic.p_value() < inference::RemarkLimits::lone_p;
-  return there && periodic.log_gain() > 0.5 * lone.gain - std::log(inference::WeighLimits::forms)
-             ? &periodic
-             : nullptr;
+  if (!unknown || unknown->periodic.p_value() >= inference::RemarkLimits::lone_p) return nullptr;
+  const double of_free_form = 0.5 * unknown->lone.gain - std::log(inference::WeighLimits::forms);
+  return unknown->periodic.log_gain() > of_free_form ? &unknown->periodic : nullptr;
 }
 
 void Fitted::forget_signatures() {
@@ -130,16 +129,14 @@ std::vector<std::size_t> Fitted::by_evidence() const {
 }
 
 Fitted with_noise(Fitted f, const Timeline& timeline, const inference::NoiseEstimate& noise) {
-  f.looked = f.looked && noise.model == f.noise.model;
+  if (noise.model != f.noise.model) f.unknown.reset();
   f.noise = noise;
   f.projector.emplace(f.problem, noise.model);
-  inference::Projected candidates = f.scores_alone
-                                        ? f.projector->candidates_in(columns_together(f.set))
-                                        : f.projector->candidates();
+  inference::Projected candidates = f.cross == inference::Cross::known
+                                        ? f.projector->candidates()
+                                        : f.projector->candidates_in(columns_together(f.set));
   static_cast<Field&>(f) = {std::move(f.set), std::move(candidates),
-                            inference::scan_windows(f.problem, timeline, *f.projector,
-                                                    f.scores_alone ? inference::Cross::left_out
-                                                                   : inference::Cross::known)};
+                            inference::scan_windows(f.problem, timeline, *f.projector, f.cross)};
   const double cost = cost_of_misalignments(f.filter, f.fit);
   for (const inference::Candidate& c : f.set.candidates)
     f.discount.push_back(c.term == closure_term ? cost : 0.0);

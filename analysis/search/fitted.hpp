@@ -9,6 +9,12 @@
 
 namespace drift::search {
 
+/// Something unknown in one equation, beside everything that is in a model.
+struct StrongestInputs {
+  inference::LoneEffect lone;  ///< of free form
+  inference::PeriodicInput periodic;
+};
+
 /// A model fitted to a test, and everything that can be said about what it leaves.
 struct Fitted : Field {
   FilterSpec filter;
@@ -18,19 +24,15 @@ struct Fitted : Field {
   std::optional<inference::Projector> projector;
   bool gross = false;         ///< so far off that its noise was read off differences of samples
   std::vector<Score> scores;  ///< of every candidate
-  /// Of something unknown in one equation, beside everything that is in the model; where it was
-  /// asked for.
-  inference::LoneEffect lone;
-  inference::PeriodicInput periodic;
-  bool looked = false;  ///< for both, under this noise
-  /// Beside causes: of its field only scores and windows are known, not what two candidates, or a
-  /// candidate and a window, have in common.
-  bool scores_alone = false;
+  std::optional<StrongestInputs> unknown;  ///< under this noise, where it was asked for
+  /// Beside causes `left_out`: of its field only scores and windows are known, not what two
+  /// candidates, or a candidate and a window, have in common.
+  inference::Cross cross = inference::Cross::known;
 
   double log_likelihood2() const { return projector->marginal().log_likelihood2(); }
-  /// Asks for both.
-  void look_for_unknown_inputs();
-  /// The periodic one, if it is there and explains more than one of free form; else null.
+  StrongestInputs strongest_inputs() const;
+  /// The periodic one, if it was asked for, is there and explains more than one of free form; else
+  /// null.
   const inference::PeriodicInput* leading_period() const;
   /// With the price of its noise.
   double log_evidence() const { return 0.5 * log_likelihood2() + noise.log_price; }
@@ -48,7 +50,7 @@ enum class NoiseKinds { white, driving_too };
 
 /// Linearises about a fit, lists candidates and scores them; the noise is estimated. beside: a fit
 /// of the same test without some causes, whose signatures do here as well where the two are close
-/// (linear_problem); then what is scored has scores_alone.
+/// (linear_problem); then what is common to two is left out.
 Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& fit,
                NoiseKinds kinds = NoiseKinds::driving_too, const Fitted* beside = nullptr);
 /// The same under a noise that is known.

@@ -94,9 +94,9 @@ double log_outside(const Search& found, const LibraryPrior& prior,
                    const inference::NoiseModel& declared, const ByNoise& nothing) {
   const Fitted& e = found.nominal;
   // Its gain is against the estimated noise, which is not at its best where the misfit is gross.
-  const double alone =
-      std::min(nothing.either(), 0.5 * e.log_likelihood2()) +
-      std::max({log_free_form(e.lone, e.problem), e.periodic.log_evidence(), log_window(e)});
+  const double alone = std::min(nothing.either(), 0.5 * e.log_likelihood2()) +
+                       std::max({log_free_form(e.unknown->lone, e.problem),
+                                 e.unknown->periodic.log_evidence(), log_window(e)});
   const std::vector<Refit>& fitted = !found.sets.empty()         ? found.sets
                                      : !found.outweighed.empty() ? found.outweighed
                                                                  : found.rejected;
@@ -105,15 +105,11 @@ double log_outside(const Search& found, const LibraryPrior& prior,
     if (!best || r.log_bayes > best->log_bayes) best = &r;
   if (!best) return std::max(alone, found.log_form);
   const Fitted& left = best->after;
-  const auto lone =
-      left.looked ? left.lone : inference::strongest_lone_input(left.problem, left.noise.model);
-  const auto periodic = left.looked
-                            ? left.periodic
-                            : inference::strongest_periodic_input(left.problem, *left.projector);
+  const StrongestInputs unknown = left.strongest_inputs();
   const double beside_a_cause =
       log_evidence(found, *best, declared) + prior.log_of(best->choices) +
       log_of_visible(found.nominal, best->choices) - std::log(WeighLimits::outside_too) +
-      std::max(log_free_form(lone, left.problem), periodic.log_evidence());
+      std::max(log_free_form(unknown.lone, left.problem), unknown.periodic.log_evidence());
   return std::max({alone, found.log_form, beside_a_cause});
 }
 

@@ -160,8 +160,8 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   if (r.tolerable()) {
     // Many small traces in one equation that no window and no candidate has alone. What is periodic
     // does not speak against a cause: it is told beside it.
-    r.after.look_for_unknown_inputs();
-    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / r.after.lone.p_value));
+    r.after.unknown = r.after.strongest_inputs();
+    r.excess = std::max(r.excess, std::log(WeighLimits::quiet_p / r.after.unknown->lone.p_value));
   }
   r.log_bayes = r.after.log_evidence() - b.nominal.log_evidence() +
                 log_share_of_settings(b.nominal, r.choices) - causes.narrowed +

@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "core/stats/normal.hpp"
+
 namespace drift {
 
 void MinutesAndSeconds::look_at(const std::vector<double>& degrees) {
@@ -39,8 +41,7 @@ double MinutesAndSeconds::chance() const {
 }
 
 std::string MinutesAndSeconds::text() const {
-  constexpr double by_chance = 6e-7;
-  if (!(chance() < by_chance)) return "";
+  if (!(chance() < stats::beyond_5_sigma)) return "";
   return fmt::format(
       "the angles seem to be degrees, minutes and seconds in one number: in none of {} is the "
       "first or the second pair of decimals 60 or more (by chance: {:.0e})",

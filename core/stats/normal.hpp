@@ -9,6 +9,7 @@ double normal_quantile(double p);
 
 /// Half width of a two-sided interval of this confidence, in standard deviations.
 double normal_half_width(double confidence);
+inline constexpr double beyond_5_sigma = 6e-7;  ///< chance of that or more, on either side
 inline constexpr double half_width_95 = 1.959963984540054;  ///< normal_half_width(0.95)
 
 /// Whether a normal distribution of this mean and sigma says of a 95 % interval what it is: beyond

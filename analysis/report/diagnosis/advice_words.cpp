@@ -24,7 +24,7 @@ using inference::AdviceLimits;
 constexpr std::size_t most_shown = 8;
 
 /// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
-std::string label_of(const search::Cause& c) {
+std::string cause_text(const search::Cause& c) {
   const auto linear = std::count_if(c.parameters.begin(), c.parameters.end(),
                                     [](const search::CauseParameter& p) { return !p.profiled; });
   const std::string own =
@@ -34,13 +34,13 @@ std::string label_of(const search::Cause& c) {
   return search::keyed(c.term, c.axis) + own;
 }
 
-std::string label_of(const Alternative& a) {
+std::string alternative_text(const Alternative& a) {
   if (a.kind == Alternative::Kind::nominal) return "the nominal model";
   if (a.kind == Alternative::Kind::equation)
     return fmt::format("eq. ({})", facts(a.equation).number);
   if (!a.asked.empty()) return a.asked;
   std::string label;
-  for (const search::Cause& c : a.causes) label += (label.empty() ? "" : " + ") + label_of(c);
+  for (const search::Cause& c : a.causes) label += (label.empty() ? "" : " + ") + cause_text(c);
   return label;
 }
 
@@ -70,9 +70,10 @@ bool against_nominal(const Advice& a, const AdvisedPair& p) {
 }
 
 std::string pair_text(const Advice& a, const AdvisedPair& p, std::string_view between = " from ") {
-  const std::string truth = label_of(truth_of(a, p));
-  return against_nominal(a, p) ? truth
-                               : fmt::format("{}{}{}", truth, between, label_of(rival_of(a, p)));
+  const std::string truth = alternative_text(truth_of(a, p));
+  return against_nominal(a, p)
+             ? truth
+             : fmt::format("{}{}{}", truth, between, alternative_text(rival_of(a, p)));
 }
 
 /// "a, b, c and 4 more"; each once, whichever way round.
@@ -81,7 +82,7 @@ std::string pairs_in_words(const Advice& a, const std::vector<AdvisedPair>& pair
   std::vector<std::string> texts;
   std::set<std::pair<std::string, std::string>> said;
   for (const AdvisedPair& p : pairs) {
-    std::pair labels{label_of(truth_of(a, p)), label_of(rival_of(a, p))};
+    std::pair labels{alternative_text(truth_of(a, p)), alternative_text(rival_of(a, p))};
     if (labels.second < labels.first) std::swap(labels.first, labels.second);
     if (said.insert(std::move(labels)).second) texts.push_back(pair_text(a, p, between));
   }
@@ -105,7 +106,7 @@ std::string before_it(std::string_view head, std::string_view text) {
   return text.empty() ? "" : fmt::format("{}{}", head, text);
 }
 
-std::string positions_text(const Advice& a) {
+std::string plan_text(const Advice& a) {
   std::vector<std::string> all;
   for (const Position& p : a.plan) all.push_back(planning::description(p, a.usual_dwell));
   return fmt::format("{}", fmt::join(all, "; "));
@@ -117,8 +118,8 @@ std::string helped_pair(const Advice& a, const AdvisedPair& p, const std::string
   const std::string size = before_it(", ", size_text(a.sizes));
   return fmt::format(
       "{} and {}{} are {:.1f} sigma apart on this plan. Add {}: then {:.1f} sigma{}{}.",
-      label_of(truth_of(a, p)), label_of(rival_of(a, p)), size.empty() ? "" : size + ",",
-      a.now_sigma, positions, a.expected_sigma, verified,
+      alternative_text(truth_of(a, p)), alternative_text(rival_of(a, p)),
+      size.empty() ? "" : size + ",", a.now_sigma, positions, a.expected_sigma, verified,
       a.expected_sigma < a.wanted ? ", which is not enough" : "");
 }
 
@@ -205,7 +206,7 @@ std::string repeat_text(const Advice& a) {
 std::string advice_text(const Advice& a) {
   switch (a.kind) {
     case Advice::Kind::add:
-      return helped_text(a, positions_text(a));
+      return helped_text(a, plan_text(a));
     case Advice::Kind::told:
       return fmt::format(
           "Nothing needs to be added: {} this plan tells {} by {:.1f} sigma, and that is the "
@@ -216,7 +217,7 @@ std::string advice_text(const Advice& a) {
       return fmt::format(
           "Nothing needs to be added: no other candidate leaves a trace like that of {} on this "
           "plan.",
-          label_of(a.alternatives.front()));
+          alternative_text(a.alternatives.front()));
     case Advice::Kind::twins:
       return fmt::format(
           "No position of the pool separates {}: they leave the same trace in all of them. Another "
@@ -230,7 +231,7 @@ std::string advice_text(const Advice& a) {
       return fmt::format(
           "Nothing can be added: {} follows the {}, and positions are planned at one {}. Let it "
           "vary within the dwells and record it.",
-          label_of(a.alternatives.front()), what, what);
+          alternative_text(a.alternatives.front()), what, what);
     }
     case Advice::Kind::repeat:
       break;
@@ -249,7 +250,7 @@ std::vector<std::string> advised_labels(const Advice& a) {
   for (std::size_t k = 0; k < a.alternatives.size(); ++k) {
     const auto holds = [&](const AdvisedPair& p) { return p.pair.truth == k || p.pair.rival == k; };
     if (std::none_of(a.pairs.begin(), a.pairs.end(), holds)) continue;
-    const std::string label = label_of(a.alternatives[k]);
+    const std::string label = alternative_text(a.alternatives[k]);
     if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
   }
   return labels;

@@ -18,6 +18,8 @@ struct Case {
   std::vector<Refit> refits;
   CredibleSet out;
 
+  Case() { e.unknown.emplace(); }
+
   std::size_t candidate(std::string term, std::string axis, std::vector<std::size_t> params) {
     e.set.candidates.push_back(
         {term, axis, term + "." + axis, std::move(params), {inference::Variant{}}});
@@ -145,9 +147,9 @@ TEST(CredibleSet, LambdaThatIsNotSettledCompetesButIsNoAdequateExplanation) {
 TEST(CredibleSet, SomethingUnknownThatIsFarBetterLeavesNone) {
   Case c;
   c.explanation(c.candidate("magnetic_drift", "x", {param("M_x")}), 40.0, -1.0);
-  c.e.lone.gain = 2.0 * (40.0 + 5.0 + 0.05 * 40.0 + std::log(21.0)) + 0.1;
+  c.e.unknown->lone.gain = 2.0 * (40.0 + 5.0 + 0.05 * 40.0 + std::log(21.0)) + 0.1;
   EXPECT_FALSE(c.can_be_weighed());
-  c.e.lone.gain -= 0.2;
+  c.e.unknown->lone.gain -= 0.2;
   EXPECT_TRUE(c.can_be_weighed());
 }
 

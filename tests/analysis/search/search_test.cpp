@@ -44,7 +44,7 @@ TEST(Search, AnErrorThatNoCandidateHoldsIsLeftUnexplained) {
   const Search s = b.found();
   EXPECT_TRUE(s.significant);
   EXPECT_TRUE(s.sets.empty());
-  EXPECT_EQ(s.nominal.lone.equation, "gimbal middle");
+  EXPECT_EQ(s.nominal.unknown->lone.equation, "gimbal middle");
 }
 
 TEST(Search, ARampOfOneGyroIsNamedAndNotTakenForNoise) {
