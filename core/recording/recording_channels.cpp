@@ -86,9 +86,13 @@ std::optional<Vec3> measured(const Recording& recording, const ChannelTriple& ch
   return v;
 }
 
+bool is_angle(std::string_view name) {
+  return name.starts_with("gimbal_") || name.starts_with("case_heading");
+}
+
 bool read_at_the_end(std::string_view name) {
-  return name == "time" || name == "position" || name == "phase" || name.starts_with("gimbal_") ||
-         name.starts_with("case_heading") || name.starts_with("loop_");
+  return name == "time" || name == "position" || name == "phase" || is_angle(name) ||
+         name.starts_with("loop_");
 }
 
 }  // namespace drift

@@ -41,6 +41,9 @@ inline constexpr std::array<ChannelTriple, 4> channel_triples{
 std::optional<Vec3> measured(const Recording& recording, const ChannelTriple& channels,
                              std::size_t row);
 
+/// Whether a channel is an angle: of a gimbal, or the heading of the case.
+bool is_angle(std::string_view name);
+
 /// Whether a row that joins others carries the channel as read at its end: the place in the test,
 /// and what is an attitude. Covariates are taken at the end as well, of several readings; the rest
 /// is averaged.

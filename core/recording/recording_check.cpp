@@ -185,6 +185,25 @@ Unit made_celsius(std::vector<double>& values, const Unit& unit) {
   return "degC"_unit;
 }
 
+/// Makes angles decimal where their digits are minutes and seconds, or looks whether they are.
+void take_digits(RawColumn& column, AngleDigits said, const std::vector<std::size_t>& lines,
+                 MinutesAndSeconds& digits, Problems& problems) {
+  if (said == AngleDigits::automatic && column.name.starts_with("gimbal_"))
+    digits.look_at(column.values);
+  if (said != AngleDigits::minutes_and_seconds) return;
+  for (std::size_t i = 0; i < column.values.size(); ++i) {
+    const double number = column.values[i];
+    if (std::isnan(number)) continue;
+    column.values[i] = angle_from_minutes_and_seconds(number);
+    if (std::isnan(column.values[i]))
+      problems.add(fmt::format("line {}, {}", lines[i], column.name),
+                   fmt::format("{} has 60 minutes or seconds, or more", number),
+                   "degrees, minutes and seconds as in 45.3015",
+                   "Remove angles = \"dd.mmss\" from [recording] of the study file if the angles "
+                   "are decimal");
+  }
+}
+
 bool equal_lengths(const RawRecording& raw, Problems& problems) {
   const std::size_t rows = raw.columns.front().values.size();
   bool equal = true;
@@ -228,7 +247,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     r.lines.resize(rows);
     for (std::size_t i = 0; i < rows; ++i) r.lines[i] = i + 1;
   }
-  MinutesAndSeconds angles;
+  MinutesAndSeconds digits;
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {
     const bool temperature = c.name == "temperature";
@@ -236,15 +255,17 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     Unit unit = checked_unit(c, {kind, raw.kind, gravity}, problems, said);
     if (temperature && c.name != "temperature") r.unmapped_temperature = said.texts().front();
     r.remarks.add(said);
-    if (c.name.starts_with("gimbal_") && same_unit(unit, unit::deg)) angles.look_at(c.values);
+    if (is_angle(c.name) && same_unit(unit, unit::deg))
+      take_digits(c, raw.angles, r.lines, digits, problems);
     for (double& x : c.values) x *= c.sign * unit.to_si;
     if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);
     r.channels.push_back({std::move(c.name), unit, std::move(c.values)});
   }
-  if (std::string wrong = angles.text(); !wrong.empty())
+  if (std::string wrong = digits.text(); !wrong.empty())
     problems.add("gimbal_outer, gimbal_middle, gimbal_inner", std::move(wrong), "decimal degrees",
-                 "Write 45.3015, if that is 45 deg 30' 15\", as 45 + 30/60 + 15/3600 = 45.504167");
+                 "Say in [recording] of the study file angles = \"dd.mmss\", if 45.3015 is 45 deg "
+                 "30' 15\", or angles = \"decimal\"");
   if (raw.kind == SampleKind::increments && kind == RecordingKind::strapdown)
     make_rates(r, gravity);
   if (raw.settled) {

@@ -32,6 +32,17 @@ enum class SampleKind {
 inline constexpr Named<SampleKind> sample_kinds[] = {{"rates", SampleKind::rates},
                                                      {"increments", SampleKind::increments}};
 
+/// How numbers stand for angles in degrees.
+enum class AngleDigits {
+  automatic,            ///< decimal, unless they look otherwise: then they are refused
+  decimal,              ///< 45.5042
+  minutes_and_seconds,  ///< 45.3015, which is 45 deg 30' 15"
+};
+inline constexpr Named<AngleDigits> angle_digits[] = {
+    {"auto", AngleDigits::automatic},
+    {"decimal", AngleDigits::decimal},
+    {"dd.mmss", AngleDigits::minutes_and_seconds}};
+
 /// One column of a user's file that stands for a channel: `acc_x = "-Ax [m/s^2]"`.
 struct MappedColumn {
   std::string channel;              ///< the name the program knows, or a covariate's
@@ -65,6 +76,7 @@ struct RecordingFormat {
   std::optional<double> wrap;   ///< the counter begins again at 0 when it reaches this
   std::optional<double> tick;   ///< one count [s]
   SampleKind kind = SampleKind::rates;
+  AngleDigits angles = AngleDigits::automatic;  ///< gimbals and the heading of the case, in deg
 };
 
 }  // namespace drift

@@ -32,6 +32,7 @@ struct RawRecording {
   std::vector<RawColumn> columns;
   std::vector<std::size_t> lines;  ///< line of each row; empty: rows are counted from 1
   SampleKind kind = SampleKind::rates;
+  AngleDigits angles = AngleDigits::automatic;
   bool settled = true;               ///< the columns were told apart without a problem
   WeighedTexts remarks;              ///< sentences about how the file was understood
   std::string unmapped_temperature;  ///< as in Recording

@@ -2,10 +2,20 @@
 
 #include <bitset>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drift {
+
+/// The angle [deg] of a text in degrees, minutes and seconds: "-89°57'40.7\"", "-89:57:40.7",
+/// "-89 57 40.7"; with the mark of degrees, minutes alone, too: "45°30.25'". Empty if it is none.
+std::optional<double> angle_in_minutes_and_seconds(std::string_view text);
+
+/// The angle [deg] of a number that holds degrees, minutes and seconds: 45.504167 of 45.3015. NaN
+/// where its minutes or seconds are 60 or more.
+double angle_from_minutes_and_seconds(double number);
 
 /// Whether angles in decimal degrees are degrees, minutes and seconds in one number (45.3015 for
 /// 45 deg 30' 15"), which shows by what does not stand there: no first or second pair of decimals

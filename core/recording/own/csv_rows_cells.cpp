@@ -7,6 +7,9 @@
 #include <limits>
 
 #include "core/recording/own/csv_rows.hpp"
+#include "core/recording/own/recording_unit.hpp"
+#include "core/recording/recording_channels.hpp"
+#include "core/recording/sexagesimal.hpp"
 
 namespace drift {
 namespace {
@@ -41,30 +44,6 @@ bool has_thousands_marks(std::string_view text) {
   return found > 0 && digits > 3;
 }
 
-/// Whether a text is an angle in degrees, minutes and seconds: "-89°57'40.7\"", "-89:57:40.7",
-/// "-89 57 40.7".
-bool is_sexagesimal(std::string_view text) {
-  constexpr std::array<std::string_view, 7> marks = {"\u00B0", "\u2032", "\u2033", "'",
-                                                     "\"",     ":",      " "};
-  std::vector<std::string> parts(1);
-  while (!text.empty()) {
-    const auto mark =
-        std::ranges::find_if(marks, [&](std::string_view m) { return text.starts_with(m); });
-    if (mark == marks.end())
-      parts.back() += text.front();
-    else if (!parts.back().empty())
-      parts.emplace_back();
-    text.remove_prefix(mark == marks.end() ? 1 : mark->size());
-  }
-  if (parts.back().empty()) parts.pop_back();
-  const auto of_sixty = [](const std::string& part) {
-    const double number = cell_number(part);
-    return number >= 0.0 && number < 60.0;
-  };
-  return parts.size() == 3 && std::isfinite(cell_number(parts[0])) && parts[1].size() <= 2 &&
-         of_sixty(parts[1]) && of_sixty(parts[2]);
-}
-
 }  // namespace
 
 /// Reads a cell into the row, or says what is wrong with it.
@@ -97,6 +76,16 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
   const bool may_lack = use.role == Role::sensor || use.role == Role::covariate;
   if (may_lack && std::ranges::find(format_.missing, cell) != format_.missing.end())
     return std::nullopt;
+  if (use.role == Role::sensor && is_angle(use.channel) && parsed.kind == Kind::text)
+    if (const auto degrees = angle_in_minutes_and_seconds(cell)) {
+      const auto unit = use.unit ? parse_recording_unit(*use.unit) : std::nullopt;
+      if (!unit) uses_[i].unit = "deg";
+      if (!unit || same_unit(*unit, unit::deg)) {
+        row_[i] = *degrees;
+        ++column.numbers;
+        return std::nullopt;
+      }
+    }
   if (use.role == Role::covariate && parsed.kind == Kind::text) {
     ++column.texts;
     return std::nullopt;
@@ -110,9 +99,7 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
     return Complaint{here(use.channel), found, "a number between 1e-307 and 1e308",
                      "Correct the number, or choose another unit"};
   std::string fix = "Correct the cell, or leave it empty if it was not measured";
-  if (use.role == Role::sensor && is_sexagesimal(cell))
-    fix = "Write angles as one number, in decimal degrees";
-  else if (has_thousands_marks(cell))
+  if (has_thousands_marks(cell))
     fix = "Write numbers without marks between thousands";
   else if (may_lack && is_word(cell))
     fix += fmt::format(

@@ -226,6 +226,8 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
     section.read(Option{.key = "delimiter", .doc = "between cells"}, format.delimiter, delimiters);
     section.read(Option{.key = "decimal", .doc = "mark within numbers"}, format.decimal,
                  decimal_marks);
+    section.read(Option{.key = "angles", .doc = "digits of angles in degrees"}, format.angles,
+                 angle_digits);
     section.read_options(format);
     read_own_header(section, Option{.key = "counter", .doc = "header of a counter"},
                     format.counter);

@@ -24,6 +24,7 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_files.hpp"
 #include "core/recording/recording_problems.hpp"
+#include "core/recording/sexagesimal.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift {
@@ -100,10 +101,20 @@ void each_row_of_numbers(const std::vector<RawColumn>& columns,
   }
 }
 
+/// What is guessed by the rows.
+struct GuessByRows {
+  explicit GuessByRows(const GuessedFile& file)
+      : by_values(file), by_numbers(file), by_up(file), digits(file) {}
+
+  GuessByValues by_values;
+  GuessPosition by_numbers;
+  GuessGimbalUnit by_up;
+  GuessAngleDigits digits;
+};
+
 /// Goes through all rows; the lengths of the specific force in the units of the file come back.
 template <class EachRow>
-std::vector<double> look_at_rows(EachRow&& each_row, GuessedFile& file, GuessByValues& by_values,
-                                 GuessPosition& by_numbers, GuessGimbalUnit& by_up) {
+std::vector<double> look_at_rows(EachRow&& each_row, GuessedFile& file, GuessByRows& rows) {
   std::vector<double> lengths;
   std::array<std::size_t, 3> acc{};
   bool triple = true;
@@ -116,9 +127,10 @@ std::vector<double> look_at_rows(EachRow&& each_row, GuessedFile& file, GuessByV
   each_row([&](const Cells& cells) {
     ++file.rows;
     for (std::size_t i = 0; i < cells.size(); ++i) look_at(file.columns[i], cells[i]);
-    by_values.look_at_row(cells);
-    by_numbers.look_at_row(cells);
-    by_up.look_at_row(cells);
+    rows.by_values.look_at_row(cells);
+    rows.by_numbers.look_at_row(cells);
+    rows.by_up.look_at_row(cells);
+    rows.digits.look_at_row(cells);
     if (!triple) return;
     const auto f = [&](int a) { return parse_cell(cells[acc[a]], DecimalMark::automatic).value; };
     if (const double length = std::hypot(f(0), f(1), f(2)); std::isfinite(length))
@@ -196,7 +208,8 @@ void name_position_by_values(GuessedFile& file) {
     return;
   const auto few_texts = [&](const GuessedColumn& c) {
     return c.channel.empty() && c.texts == file.rows && c.again.empty() && c.words.size() > 1 &&
-           c.words.size() < most_words && !holds_dates(c) && !holds_times(c);
+           c.words.size() < most_words && !holds_dates(c) && !holds_times(c) &&
+           !angle_in_minutes_and_seconds(c.words.front());
   };
   if (std::ranges::count_if(file.columns, few_texts) != 1) return;
   GuessedColumn& column = *std::ranges::find_if(file.columns, few_texts);
@@ -249,31 +262,30 @@ GuessedFile guess_file(const std::string& path) {
     file.columns.push_back(std::move(column));
   }
   name_channels(file);
-  GuessByValues by_values(file);
-  GuessPosition by_numbers(file);
-  GuessGimbalUnit by_up(file);
+  GuessByRows rows(file);
   const auto each_row = [&](const std::function<void(const Cells&)>& look) {
     if (file.text)
       each_row_of_text(path, file, look);
     else
       each_row_of_numbers(numbers, look);
   };
-  std::string gravity = unit_of_gravity(look_at_rows(each_row, file, by_values, by_numbers, by_up));
-  if (const std::string unit = by_values.name_channels(file); !unit.empty()) gravity = unit;
+  std::string gravity = unit_of_gravity(look_at_rows(each_row, file, rows));
+  if (const std::string unit = rows.by_values.name_channels(file); !unit.empty()) gravity = unit;
   name_time_by_values(file);
   name_position_by_values(file);
-  by_numbers.name_channel(file);
+  rows.by_numbers.name_channel(file);
   const auto take_units_of = [&](std::string_view channels) {
     for (GuessedColumn& c : file.columns)
       if (c.unit.empty() && c.channel.starts_with(channels)) c.unit = guessed_unit_of(c, gravity);
   };
   take_units_of("acc_");
-  if (const std::string unit = by_up.unit(file); !unit.empty())
+  if (const std::string unit = rows.by_up.unit(file); !unit.empty())
     for (GuessedColumn& c : file.columns)
       if (c.channel.starts_with("gimbal_")) c.unit = unit;
   take_units_of("");
   count_clock_of_numbers(file);
   fill_format(file);
+  file.format.angles = rows.digits.found(file);
   return file;
 }
 

@@ -13,6 +13,7 @@
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
+#include "core/recording/sexagesimal.hpp"
 
 namespace drift {
 namespace {
@@ -91,6 +92,9 @@ std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) 
   constexpr double full_turn = 7.0;  // [rad] no angle is larger
   const bool heading = c.channel == "case_heading";
   if ((heading || c.channel.starts_with("gimbal_")) && std::max(-c.low, c.high) > full_turn)
+    return "deg";
+  if ((heading || c.channel.starts_with("gimbal_")) && !c.words.empty() &&
+      angle_in_minutes_and_seconds(c.words.front()))
     return "deg";
   if (heading && c.low == 0.0 && c.high == 0.0) return "deg";  // North in every unit
   return c.channel == "temperature" ? "" : "?";                // a covariate does without

@@ -10,6 +10,7 @@
 #include "core/recording/own/guess_values.hpp"
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/sexagesimal.hpp"
 
 namespace drift {
 namespace {
@@ -102,6 +103,25 @@ std::string GuessGimbalUnit::unit(const GuessedFile& file) const {
   std::ranges::sort(worst);
   const bool one = worst[0].first < GuessLimits::one_up && worst[0].first < 0.5 * worst[1].first;
   return one ? worst[0].second : "";
+}
+
+GuessAngleDigits::GuessAngleDigits(const GuessedFile& file) {
+  for (std::size_t i = 0; i < file.columns.size(); ++i)
+    if (file.columns[i].channel.starts_with("gimbal_")) gimbals_.push_back({i, {}});
+}
+
+void GuessAngleDigits::look_at_row(const std::vector<std::string_view>& cells) {
+  for (auto& [column, numbers] : gimbals_) numbers.push_back(cell_number(cells[column]));
+}
+
+AngleDigits GuessAngleDigits::found(const GuessedFile& file) const {
+  MinutesAndSeconds digits;
+  for (const auto& [column, numbers] : gimbals_) {
+    const GuessedColumn& c = file.columns[column];
+    const auto unit = parse_recording_unit(c.unit);
+    if (unit && same_unit(*unit, unit::deg)) digits.look_at(numbers);
+  }
+  return digits.text().empty() ? AngleDigits::automatic : AngleDigits::minutes_and_seconds;
 }
 
 void name_third_gimbal(GuessedFile& file) {

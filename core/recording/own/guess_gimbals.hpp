@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/recording/own/guess.hpp"
@@ -31,6 +32,19 @@ class GuessGimbalUnit {
   std::array<double, 3> low_{}, high_{};
   std::vector<double> before_;
   std::vector<std::vector<double>> kept_;  ///< all cells of rows at which the platform stood
+};
+
+/// Whether the digits of gimbal angles in degrees are minutes and seconds.
+class GuessAngleDigits {
+ public:
+  /// The columns with the channels that names gave them.
+  explicit GuessAngleDigits(const GuessedFile& file);
+
+  void look_at_row(const std::vector<std::string_view>& cells);
+  AngleDigits found(const GuessedFile& file) const;
+
+ private:
+  std::vector<std::pair<std::size_t, std::vector<double>>> gimbals_;  ///< column, numbers
 };
 
 /// Where two gimbals are named, the third may be called by a short word ("Mid").

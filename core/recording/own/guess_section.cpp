@@ -105,7 +105,8 @@ std::vector<std::string> in_units_of(const GuessedFile& file, std::string_view c
 
 bool needs_section(const GuessedFile& file) {
   const RecordingFormat& f = file.format;
-  return !f.columns.empty() || !f.positions.empty() || !f.date.empty() || !f.counter.empty();
+  return !f.columns.empty() || !f.positions.empty() || !f.date.empty() || !f.counter.empty() ||
+         f.angles != AngleDigits::automatic;
 }
 
 std::string recording_section(const GuessedFile& file) {
@@ -126,6 +127,9 @@ std::string recording_section(const GuessedFile& file) {
          : columns.empty()
              ? "# columns = { time = \"column_1 [s]\", gyro_x = \"column_2 [rad/s]\" }\n"
              : fmt::format("columns = {{ {} }}{}\n", columns, guessed_by_values(file));
+  if (f.angles != AngleDigits::automatic)
+    out += fmt::format("angles  = {}  # by their digits: check\n",
+                       quoted(std::string(name_in(angle_digits, f.angles))));
   if (!f.date.empty()) out += fmt::format("date = {}\n", quoted(f.date));
   if (!f.counter.empty())
     out += fmt::format("counter = {}\ntick    = \"{}\"\nwrap    = {:.0f}\n", quoted(f.counter),

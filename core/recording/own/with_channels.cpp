@@ -70,6 +70,7 @@ RawRecording with_channels(RawRecording raw, const std::vector<ColumnUse>& uses,
   out.remarks = std::move(raw.remarks);
   out.unmapped_temperature = std::move(raw.unmapped_temperature);
   out.kind = format.kind;
+  out.angles = format.angles;
   out.settled = raw.settled;
   const RawColumn* counter = nullptr;
   std::vector<std::string> texts;

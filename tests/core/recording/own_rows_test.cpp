@@ -170,7 +170,7 @@ std::string said_of_angles(const std::string& header, const std::string& cells) 
   return "";
 }
 
-TEST(OwnRows, AnglesInDegreesMinutesAndSecondsAreRefusedWithWhatToWrite) {
+TEST(OwnRows, AnglesInThreeColumnsAreRefusedWithWhatToWrite) {
   for (const std::string names : {"outer deg;outer min;outer sec", "outer_deg;outer_min;outer_sec",
                                   "outer [deg];outer [arcmin];outer [arcsec]"}) {
     const std::string said = said_of_angles(names, "-89;57;40.7");
@@ -180,12 +180,30 @@ TEST(OwnRows, AnglesInDegreesMinutesAndSecondsAreRefusedWithWhatToWrite) {
   EXPECT_EQ(said_of_angles("T deg;T min;T max", "1;2;3"), "")
       << "least and most are no parts of it";
   const std::string names = "gimbal_outer [deg];gimbal_middle [deg];gimbal_inner [deg]";
-  for (const std::string cell : {"-89\u00B057'40.7''", "-89:57:40.7", "-89 57 40.7"})
-    EXPECT_NE(said_of_angles(names, cell + ";1;2").find("one number, in decimal degrees"),
-              std::string::npos)
-        << said_of_angles(names, cell + ";1;2");
   EXPECT_NE(said_of_angles(names, "1 234.5;1;2").find("marks between thousands"),
             std::string::npos);
+}
+
+TEST(OwnRows, AnglesInDegreesMinutesAndSecondsAreRead) {
+  const Folder folder;
+  for (const std::string unit : {" [deg]", "", " [dms]"})
+    for (const std::string cell : {"-89\u00B057'40.7''", "-89:57:40.7", "-89 57 40,7"}) {
+      const std::string text = fmt::format(
+          "time [s];position;acc_x [g];acc_y [g];acc_z [g];gimbal_outer{0};"
+          "gimbal_middle{0};gimbal_inner{0}\n1;1;0;0;1;{1};{1};{1}\n2;1;0;0;1;{1};"
+          "{1};\n",
+          unit, cell);
+      const std::string path = folder.write("own.csv", text);
+      const Recording r =
+          read_recording(path, guess_file(path).format, RecordingKind::platform, gravity);
+      EXPECT_NEAR(r.find("gimbal_outer")->values[1] / detail::deg,
+                  -(89.0 + 57.0 / 60.0 + 40.7 / 3600.0), 1e-10)
+          << text;
+      EXPECT_TRUE(std::isnan(r.find("gimbal_inner")->values[1]));
+    }
+  const std::string said = said_of_angles(
+      "gimbal_outer [rad];gimbal_middle [rad];gimbal_inner [rad]", "-89:57:40.7;0;0");
+  EXPECT_NE(said.find("found '-89:57:40.7'"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Gimbal angles as degrees, minutes and seconds in one number.
+// Gimbal angles as degrees, minutes and seconds, in a text or in one number.
 #include "core/recording/sexagesimal.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/recording/own/guess.hpp"
 #include "recording_fixture.hpp"
 
 namespace drift::sexagesimal_test {
@@ -76,27 +77,93 @@ TEST(MinutesAndSeconds, TheChanceHolds) {
   EXPECT_LT(below, 0.1 * columns);
 }
 
-TEST(MinutesAndSeconds, OfARecordingAreRefused) {
+TEST(MinutesAndSeconds, OfATextAreAnAngle) {
+  const double angle = -(89.0 + 57.0 / 60.0 + 40.7 / 3600.0);
+  for (const std::string text :
+       {"-89\u00B057'40.7\"", "-89\u00B0 57' 40.7''", "-89\u00B057\u203240.7\u2033", "-89:57:40.7",
+        "-89 57 40.7", "-89:57:40,7", "-89\u00B057.6783333333333'"})
+    EXPECT_NEAR(angle_in_minutes_and_seconds(text).value_or(0.0), angle, 1e-11) << text;
+  EXPECT_NEAR(*angle_in_minutes_and_seconds("-0\u00B030'"), -0.5, 1e-15) << "the sign of no degree";
+  EXPECT_EQ(angle_in_minutes_and_seconds("45.5\u00B0"), 45.5);
+  for (const std::string text : {"1 234.5", "12:30", "45:60:00", "45:00:60", "45.5:30:00",
+                                 "1:2:3:4", "45:30.5:10", "45:30:x", "x\u00B0", "", "45"})
+    EXPECT_FALSE(angle_in_minutes_and_seconds(text)) << text;
+}
+
+/// Every second of two degrees, and what is none.
+TEST(MinutesAndSeconds, OfANumberAreAnAngle) {
+  for (int seconds = -3600; seconds <= 3600; ++seconds)
+    for (const double degrees : {0.0, 359.0}) {
+      const double angle = degrees + std::abs(seconds) / 3600.0;
+      const double written = std::stod(fmt::format("{:.4f}", as_minutes_and_seconds(angle)));
+      const double sign = seconds < 0 ? -1.0 : 1.0;
+      ASSERT_NEAR(angle_from_minutes_and_seconds(sign * written), sign * angle, 1e-12) << written;
+    }
+  EXPECT_NEAR(angle_from_minutes_and_seconds(45.30152), 45.5 + 15.2 / 3600.0, 1e-12);
+  for (const double none : {45.60, 45.9999, -0.0060, 12.3460})
+    EXPECT_TRUE(std::isnan(angle_from_minutes_and_seconds(none))) << none;
+}
+
+/// A platform in free drift, its angles to four decimals; what is said, and the angles read [deg].
+struct ReadAngles {
+  std::string said;
+  std::vector<double> outer;
+};
+
+ReadAngles read_angles(const std::string& path, const RecordingFormat& format) {
+  ReadAngles out;
+  try {
+    const Recording r = read_recording(path, format, RecordingKind::platform, gravity);
+    for (const double x : r.find("gimbal_outer")->values) out.outer.push_back(x / unit::deg.to_si);
+  } catch (const InputError& e) {
+    out.said = e.what();
+  }
+  return out;
+}
+
+std::string log_of_angles(bool written_so, const std::vector<double>& outer) {
+  std::string text =
+      "time [s],position,gimbal_outer [deg],gimbal_middle [deg],gimbal_inner [deg]\n";
+  const std::vector<double> inner = drifting(0.4, 21.0, static_cast<int>(outer.size()));
+  for (std::size_t k = 0; k < outer.size(); ++k) {
+    const auto cell = [&](double x) { return written_so ? as_minutes_and_seconds(x) : x; };
+    text += fmt::format("{},1,{:.4f},0,{:.4f}\n", 60 * (k + 1), cell(outer[k]), cell(inner[k]));
+  }
+  return text;
+}
+
+TEST(MinutesAndSeconds, OfARecordingAreRefusedUntilItIsSaidWhatTheyAre) {
   const Folder folder;
-  const auto read = [&](bool written_so) {
-    std::string text =
-        "time [s],position,gimbal_outer [deg],gimbal_middle [deg],gimbal_inner [deg]\n";
-    const std::vector<double> outer = drifting(-90.2, 60.0, 120), inner = drifting(0.4, 21.0, 120);
-    for (std::size_t k = 0; k < outer.size(); ++k) {
-      const auto cell = [&](double x) { return written_so ? as_minutes_and_seconds(x) : x; };
-      text += fmt::format("{},1,{:.4f},0,{:.4f}\n", 60 * (k + 1), cell(outer[k]), cell(inner[k]));
-    }
-    try {
-      read_recording(folder.write("r.csv", text), RecordingKind::platform, gravity);
-    } catch (const InputError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(read(false), "");
-  EXPECT_NE(read(true).find("degrees, minutes and seconds in one number: in none of 360"),
+  const std::vector<double> outer = drifting(-90.2, 60.0, 120, 1.0 / 3600.0);
+  const std::string decimal = folder.write("decimal.csv", log_of_angles(false, outer)),
+                    sixty = folder.write("sixty.csv", log_of_angles(true, outer));
+  EXPECT_EQ(read_angles(decimal, {}).said, "");
+  const std::string said = read_angles(sixty, {}).said;
+  EXPECT_NE(said.find("degrees, minutes and seconds in one number: in none of 360"),
             std::string::npos)
-      << read(true);
+      << said;
+  EXPECT_NE(said.find("angles = \"dd.mmss\""), std::string::npos) << said;
+  const std::vector<double> read =
+      read_angles(sixty, {.angles = AngleDigits::minutes_and_seconds}).outer;
+  ASSERT_EQ(read.size(), outer.size());
+  for (std::size_t k = 0; k < outer.size(); ++k) EXPECT_NEAR(read[k], outer[k], 1e-10);
+  const std::vector<double> as_they_stand =
+      read_angles(sixty, {.angles = AngleDigits::decimal}).outer;
+  ASSERT_EQ(as_they_stand.size(), outer.size());
+  EXPECT_NEAR(as_they_stand.front(), -90.12, 1e-10);
+  const std::string wrong = read_angles(decimal, {.angles = AngleDigits::minutes_and_seconds}).said;
+  EXPECT_NE(wrong.find("has 60 minutes or seconds, or more"), std::string::npos) << wrong;
+}
+
+TEST(MinutesAndSeconds, OfARecordingAreProposedToBeReadSo) {
+  const Folder folder;
+  const std::vector<double> outer = drifting(-90.2, 60.0, 120, 1.0 / 3600.0);
+  for (const bool so : {false, true}) {
+    const GuessedFile file = guess_file(folder.write("own.csv", log_of_angles(so, outer)));
+    EXPECT_EQ(file.format.angles, so ? AngleDigits::minutes_and_seconds : AngleDigits::automatic);
+    EXPECT_EQ(recording_section(file).find("angles  = \"dd.mmss\"") != std::string::npos, so)
+        << recording_section(file);
+  }
 }
 
 }  // namespace
