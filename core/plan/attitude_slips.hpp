@@ -24,6 +24,9 @@ struct Sight {
 
 /// By what an attitude may miss the plan's before it is another one [rad].
 inline constexpr double largest_mismatch = 10.0 * detail::deg;
+/// One part in so many of a position is its begin, or its end: rows there may be on the way, or of
+/// the position beside it, and those farther in are its own.
+inline constexpr std::size_t parts_of_a_position = 4;
 /// Fewer positions fit several guesses.
 inline constexpr std::size_t fewest_sights = 3;
 

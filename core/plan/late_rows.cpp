@@ -83,7 +83,6 @@ std::vector<std::size_t> late_columns(const Recording& recording, const std::vec
 
 std::size_t rows_on_the_way(const Recording& recording, const std::vector<Sight>& wrong,
                             const ChannelTriple& channels, Mismatch mismatch) {
-  constexpr std::size_t part = 4;
   const Channel *position = recording.find("position"), *heading = recording.find("case_heading");
   if (position == nullptr) return 0;
   std::size_t most = 0;
@@ -94,7 +93,7 @@ std::size_t rows_on_the_way(const Recording& recording, const std::vector<Sight>
     const double first = mismatch(s, s.seen);
     std::size_t end = s.row, row = s.row + 1;
     while (same(end)) ++end;
-    for (const std::size_t last = s.row + (end - s.row) / part; row <= last; ++row) {
+    for (const std::size_t last = s.row + (end - s.row) / parts_of_a_position; row <= last; ++row) {
       const auto seen = measured(recording, channels, row);
       if (heading != nullptr) s.heading = heading->values[row];
       if (seen && mismatch(s, *seen) < std::min(largest_mismatch, 0.5 * first)) break;

@@ -16,8 +16,6 @@ namespace drift {
 namespace {
 
 constexpr std::size_t fewest_positions = 3, fewest_rows = 2;
-constexpr std::size_t part =
-    4;  // of a position, at either end, in which a jump is one of its number
 
 /// Rows from the first jump in the end of the position to its last, and from its first to the only
 /// jump in its begin; 0: there is none.
@@ -48,7 +46,8 @@ Jumps jumps_in(const Recording& r, std::size_t first, std::size_t last) {
   for (std::size_t k = first + 1; k <= last; ++k) {
     const Mat3 now = attitude(k), was = std::exchange(before, now);
     if (!apart(now, was)) continue;
-    const bool at_begin = k - first <= count / part, at_end = last - k + 1 <= count / part;
+    const bool at_begin = k - first <= count / parts_of_a_position,
+               at_end = last - k + 1 <= count / parts_of_a_position;
     if (!at_begin && !at_end) return {};  // angles that jump all the while
     // A reading that is none is no turn: it comes back.
     if (at_end && in_end++ == 0 && apart(at_last, was)) out.before_last = last - k + 1;

@@ -97,13 +97,13 @@ double in_whole_samples(double length, double sample) {
   return std::round(length / sample) * sample;
 }
 
-/// The first row of a dwell that shows its attitude: where the platform is a quarter of it later.
+/// The first row of a dwell that shows its attitude: where the platform is behind its begin.
 /// Rows before it are of the turn or of the position before.
 std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t end) {
   if (first + 2 >= end) return first;
   const auto& time = r.find("time")->values;
   const double free = largest_mismatch / detail::earth_rate;  // [s] that drift needs for that
-  std::size_t later = first + std::max<std::size_t>(1, (end - first) / 4);
+  std::size_t later = first + std::max<std::size_t>(1, (end - first) / parts_of_a_position);
   while (later > first + 1 && time[later] - time[first] > free) --later;
   const auto there = measured(r, gimbal_channels, later);
   for (std::size_t row = first; there && row < later; ++row)
@@ -115,11 +115,11 @@ std::size_t row_of_attitude(const Recording& r, std::size_t first, std::size_t e
   return there ? later : first;
 }
 
-/// The last row of a dwell whose heading is its own: that of the row a quarter before its end, if
+/// The last row of a dwell whose heading is its own: that of the row before its end part, if
 /// the case stood there. Rows behind it are of the turn or of the next position.
 std::size_t row_of_heading(const std::vector<double>& heading, std::size_t first, std::size_t end) {
   if (first + 2 >= end) return end - 1;
-  const std::size_t own = end - 1 - std::max<std::size_t>(1, (end - first) / 4);
+  const std::size_t own = end - 1 - std::max<std::size_t>(1, (end - first) / parts_of_a_position);
   const auto apart = [&](std::size_t row) {
     return std::abs(std::remainder(heading[row] - heading[own], 360.0 * detail::deg));
   };
