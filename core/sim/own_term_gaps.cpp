@@ -78,7 +78,7 @@ class OwnCourse {
   std::optional<double> gap_within(Search& s, double from, double to) const {
     constexpr double finest = 0x1p-20;  // of the stretch: still far above roundings of the time
     const Range range = evaluated<Range>([&](std::size_t i) {
-      const auto [least, most] = std::minmax(s.at(i, from), s.at(i, to));
+      const auto [least, most] = std::minmax({s.at(i, from), s.at(i, to)});
       return Range(least, most);
     });
     if (range.everywhere) return std::nullopt;
