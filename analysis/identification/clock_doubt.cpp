@@ -42,8 +42,9 @@ struct Retimed {
 
 /// The factor that fits best, by the parabola of the cost, the steps ever smaller; nothing where
 /// there is no valley.
-std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recording>& recordings,
-                               const FilterSpec& filter, double near, double step) {
+std::optional<Retimed> retimed_valley(const mc::Study& study,
+                                      const std::vector<Recording>& recordings,
+                                      const FilterSpec& filter, double near, double step) {
   const auto at = [&](double factor) {
     return fitted(study, with_times(recordings, factor), filter, Result::estimates).estimate;
   };
@@ -61,6 +62,17 @@ std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recordi
   }
   out.doubt.chi2_per_dof_after = out.estimate.statistic_per_dof();
   return out;
+}
+
+/// Nothing, too, where with such times it would be no recording of this plan: it is ours to try
+/// them, and no fault of the file.
+std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recording>& recordings,
+                               const FilterSpec& filter, double near, double step) {
+  try {
+    return retimed_valley(study, recordings, filter, near, step);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 EstimateResult fitted_at(double latitude, mc::Study study, const std::vector<Recording>& recordings,

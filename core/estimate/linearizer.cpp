@@ -57,11 +57,11 @@ Linearizer::Linearizer(const DriftModel& model, const Layout& layout, Readout re
       with_readout_(readout.accelerometers),
       needs_(TermLibrary::needs(model.terms)),
       theta_together_(TermLibrary::num_params),
-      rates_(model.terms, rate_states(layout)),
-      accelerometers_(model.terms, readout_states(layout)),
-      offset_accelerometers_(model.terms, readout_states(layout)),
-      offsets_(model.terms, readout_states(layout)),
-      resolvers_(model.terms, readout_states(layout)) {
+      rates_(model.terms, model.mounting, rate_states(layout)),
+      accelerometers_(model.terms, model.mounting, readout_states(layout)),
+      offset_accelerometers_(model.terms, model.mounting, readout_states(layout)),
+      offsets_(model.terms, model.mounting, readout_states(layout)),
+      resolvers_(model.terms, model.mounting, readout_states(layout)) {
   derivative_.resize(
       std::max({rates_.apart.entries().size(), offsets_.entries().size(),
                 offset_accelerometers_.entries().size(), resolvers_.entries().size()}));

@@ -86,9 +86,9 @@ class Linearizer {
     std::vector<Pack> derivative;  ///< work: of the entries of the first
     std::vector<Pack> beside;      ///< of the second
 
-    Hooked(const TermMask& terms, const std::vector<std::size_t>& states)
-        : together(those_in_lanes(terms), states),
-          apart(those_apart(terms), states),
+    Hooked(const TermMask& terms, const Mounting& mounting, const std::vector<std::size_t>& states)
+        : together(those_in_lanes(terms), mounting, states),
+          apart(those_apart(terms), mounting, states),
           derivative(together.entries().size()),
           beside(apart.entries().size()) {}
   };

@@ -2,7 +2,7 @@
 
 namespace drift {
 
-SeenByTerms<Dependence> scene_of_dependence() {
+SeenByTerms<Dependence> scene_of_dependence(const Mounting& mounting) {
   // On the way to a position of a test, hours after its start: nothing is at zero.
   static const CaseTurn turn{Vec3(0.1, -0.2, 0.3), Mat3::Constant(0.1)};
   static const Surroundings<Dependence> around = [] {
@@ -19,7 +19,6 @@ SeenByTerms<Dependence> scene_of_dependence() {
     s.gimbal = Vec3(0.5, -0.4, 1.1).cast<Dependence>();
     return s;
   }();
-  static const Mounting mounting;
   SeenByTerms<Dependence> seen;
   seen.still.mounting = &mounting;
   seen.still.f_p = Vec3(0.48, -0.36, 0.80).cast<Dependence>();

@@ -58,8 +58,9 @@ inline bool all_at_one_instant(const TermMask& terms) {
 /// What lanes stand for: instants of one run, or runs at one instant.
 enum class LanesAre { instants, runs };
 
-/// An instant at which every term has something to do, to find out what depends on what.
-SeenByTerms<Dependence> scene_of_dependence();
+/// An instant at which every term has something to do, to find out what depends on what. Refers to
+/// the mounting: which slots a gyro's parameters meet is of its axes.
+SeenByTerms<Dependence> scene_of_dependence(const Mounting& mounting);
 
 /// The slots of one hook, summed over the terms of a model, and their derivatives: with respect to
 /// three directions of attitude by dual numbers, each term once; with respect to the states of a
@@ -89,10 +90,11 @@ class SlotDerivatives {
 
   /// states: library index of each, in the order of a layout. Of several instants at once no term
   /// may be among `terms` that is not in_lanes, of several runs none that is not at_one_instant.
-  SlotDerivatives(const TermMask& terms, const std::vector<std::size_t>& states) {
+  SlotDerivatives(const TermMask& terms, const Mounting& mounting,
+                  const std::vector<std::size_t>& states) {
     TermLibrary::for_each_of(terms, [&]<class T>(const TermInfo& info) {
       if constexpr (Hook::template has<T> && knows<T>)
-        if (Hook::acts(info)) add<T>(info, states);
+        if (Hook::acts(info)) add<T>(info, mounting, states);
     });
   }
 
@@ -140,7 +142,7 @@ class SlotDerivatives {
   };
 
   template <class T>
-  void add(const TermInfo& info, const std::vector<std::size_t>& states);
+  void add(const TermInfo& info, const Mounting& mounting, const std::vector<std::size_t>& states);
 
   // Flattened: what a term is made of are many small products, which cost more to call than to do.
   template <class T>
@@ -220,9 +222,10 @@ class SlotDerivatives {
 /// The slots that each parameter of a term meets: a bit for each slot. specs: its parameters, where
 /// a study says what they are.
 template <class Hook, class T>
-std::array<std::uint32_t, T::params.size()> slots_met(const ParamSpec* specs = T::params.data()) {
+std::array<std::uint32_t, T::params.size()> slots_met(const Mounting& mounting,
+                                                      const ParamSpec* specs = T::params.data()) {
   static_assert(T::params.size() <= 32);
-  const SeenByTerms<Dependence> scene = scene_of_dependence();
+  const SeenByTerms<Dependence> scene = scene_of_dependence(mounting);
   std::array<Dependence, T::params.size()> p;
   for (std::size_t k = 0; k < p.size(); ++k) {
     const Prior prior = specs[k].prior_si();
@@ -241,12 +244,12 @@ std::array<std::uint32_t, T::params.size()> slots_met(const ParamSpec* specs = T
 
 template <class Hook, class S, LanesAre lanes>
 template <class T>
-void SlotDerivatives<Hook, S, lanes>::add(const TermInfo& info,
+void SlotDerivatives<Hook, S, lanes>::add(const TermInfo& info, const Mounting& mounting,
                                           const std::vector<std::size_t>& states) {
   OneTerm t{info.first, static_cast<std::size_t>(info.first_memory), {}, &value<T>, &derivative<T>,
             &plain<T>};
   const ParamSpec* specs = &TermLibrary::specs[info.first];
-  const auto met = slots_met<Hook, T>(specs);
+  const auto met = slots_met<Hook, T>(mounting, specs);
   for (std::size_t k = 0; k < info.count; ++k) {
     const auto state = std::find(states.begin(), states.end(), info.first + k);
     if (state == states.end() || met[k] == 0) continue;

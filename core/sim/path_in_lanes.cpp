@@ -33,7 +33,7 @@ Vec3 quartic(const Vec3* f, std::size_t n) {
 PathInLanes::PathInLanes(const Timeline& timeline, const DriftModel& model)
     : timeline_(timeline),
       model_(model),
-      terms_(model.terms, {}),
+      terms_(model.terms, model.mounting, {}),
       theta_(Theta::Zero()),
       theta_together_(TermLibrary::num_params) {
   seen_.still.mounting = &model_.mounting;

@@ -165,9 +165,11 @@ RecordedPlan recorded_plan(const Recording& r) {
       ups.push_back(axes_of(*force));
     }
     const auto command = measured(r, command_channels, dwell);
-    plan.level = plan.level || (command && command->norm() > 0.5 * detail::earth_rate);
+    p.level = command && command->norm() > 0.5 * detail::earth_rate;
     plan.positions.push_back(std::move(p));
   }
+  plan.level = 2 * std::ranges::count(plan.positions, true, &RecordedPlan::Position::level) >
+               std::ssize(plan.positions);
   const Channel* const outer = r.find("gimbal_outer");
   if (outer) plan.contradiction = two_ups_text(seen, outer->unit);
   if (plan.contradiction.empty()) return plan;

@@ -14,12 +14,13 @@ struct RecordedPlan {
     double length = 0.0;              ///< of the dwell [s], a whole number of its samples
     std::string axes{};               ///< "x=N y=W z=U"
     bool torqued = false;             ///< slewed to, as the phases say
+    bool level = false;               ///< Earth rate is commanded in the dwell
     std::optional<double> heading{};  ///< of the case [rad], where it is recorded
     std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
     std::optional<double> sample{};   ///< of its own [s], where it is not that of the plan
   };
   double sample = 0.0;          ///< of most rows of the dwells [s]
-  bool level = false;           ///< Earth rate is commanded in the dwells
+  bool level = false;           ///< Earth rate is commanded in most dwells
   bool north = false;           ///< the axes that lie level are from gimbal angles
   bool headings = false;        ///< and the headings of the case are recorded; else it faces North
   bool to_come = false;         ///< the recording could not be read yet: the positions hold a place

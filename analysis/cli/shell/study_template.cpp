@@ -31,10 +31,16 @@ std::string_view title_of(StudyKind kind) {
 /// [plan].
 enum class Dwells { as_recorded, alike };
 
-std::string position_text(const RecordedPlan::Position& p, std::size_t number, Dwells dwells) {
+std::string mode_text(bool level) {
+  return level ? "level" : "free";
+}
+
+std::string position_text(const RecordedPlan& plan, std::size_t number, Dwells dwells) {
+  const RecordedPlan::Position& p = plan.positions[number - 1];
   std::string text =
       fmt::format("[[plan.position]]\nname  = \"position {}\"\naxes  = \"{}\"\n", number, p.axes);
   if (p.torqued) text += "entry = \"torqued\"\n";
+  if (p.level != plan.level) text += fmt::format("mode  = \"{}\"\n", mode_text(p.level));
   if (p.heading)
     text += fmt::format("case_heading = \"{:.0f} deg\"\n", std::round(*p.heading / detail::deg));
   if (!p.turned.empty())
@@ -51,7 +57,7 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
       "\n[plan]\nmode   = \"{}\"        # in the dwells: \"free\", or \"level\" with Earth rate "
       "commanded\nentry  = \"caged\"       # how a position is entered: \"caged\", or "
       "\"torqued\"\n",
-      plan && plan->level ? "level" : "free");
+      mode_text(plan && plan->level));
   if (!plan)
     return text +
            "preset = \"six\"         # or [[plan.position]] one by one, with name and axes\n"
@@ -71,7 +77,7 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
               : "# What is up is of the recording.\n# N, S, E, W of the axes below, which no "
                 "accelerometer shows: check\n";
   for (std::size_t i = 0; i < plan->positions.size(); ++i)
-    text += position_text(plan->positions[i], i + 1, dwells);
+    text += position_text(*plan, i + 1, dwells);
   return text;
 }
 

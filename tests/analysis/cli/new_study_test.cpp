@@ -90,6 +90,27 @@ TEST(NewStudy, AttitudesEntriesHeadingsAndLawAreThoseOfTheRecording) {
   EXPECT_EQ(driftscope("identify " + file + " " + recording + " --quiet").code, 0);
 }
 
+TEST(NewStudy, ALawOfItsOwnStandsWithThePosition) {
+  const ScratchFolder folder;
+  const std::string recording = folder.file("r.csv"), file = folder.file("lab.toml");
+  std::string plan =
+      "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\nmode = \"level\"\n"
+      "dwell = \"10 min\"\nsample = \"60 s\"\n";
+  for (const std::string position : {"x=N y=W z=U", "x=U y=S z=E", "x=W y=N z=D", "x=D y=N z=E"})
+    plan += "[[plan.position]]\nname = \"" + position + "\"\naxes = \"" + position + "\"\n" +
+            (position == "x=W y=N z=D" ? "mode = \"free\"\n" : "");
+  plan += "[truth]\ncoupling = \"eq5\"\n[[filter]]\nname = \"f\"\ncoupling = \"eq5\"\n";
+  ASSERT_EQ(driftscope("simulate " + folder.write("own.toml", plan) + " -o " + recording).code, 0);
+  ASSERT_EQ(driftscope("new platform " + recording + " -o " + file).code, 0);
+  const std::string text = text_of(file);
+  EXPECT_TRUE(has(text, "mode   = \"level\"")) << text;
+  const auto third = text.find("name  = \"position 3\""), own = text.find("mode  = \"free\"");
+  EXPECT_TRUE(own > third && own < text.find("name  = \"position 4\"")) << text;
+  EXPECT_EQ(own, text.rfind("mode  = ")) << text;
+  const Answer a = driftscope("identify " + file + " " + recording);
+  EXPECT_FALSE(has(a.out + a.err, "correct plan.mode")) << a.out << a.err;
+}
+
 TEST(NewStudy, WhatNoColumnTellsIsLeftBlankAndSaid) {
   const ScratchFolder folder;
   const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),

@@ -1,4 +1,5 @@
-// A study of the other hemisphere: three drifts along the input axes take most of it up.
+// A study of another latitude. Of the other hemisphere: three drifts along the input axes take most
+// of it up.
 #include <gtest/gtest.h>
 
 #include "tests/support/program.hpp"
@@ -29,6 +30,20 @@ TEST(WrongHemisphere, IsTheFirstThingThatIdentifySaysThoughChiSquareHardlyShowsI
             std::string::npos)
       << wrong.out;
   EXPECT_NE(wrong.out.find("--set site.latitude=\"52."), std::string::npos) << wrong.out;
+}
+
+/// Times that are tried beside the latitude make no recording of the plan: nobody's mistake but the
+/// program's own.
+TEST(WrongLatitude, FarOffIsSaidOfAPlanWithSlewsToo) {
+  const ScratchFolder folder;
+  const std::string study = test::config("table1.toml"), recording = folder.file("r.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + recording).code, 0);
+  for (const std::string command : {"identify ", "diagnose "}) {
+    const auto wrong =
+        driftscope(command + study + " " + recording + " --set site.latitude='\"55 deg\"'");
+    EXPECT_EQ(wrong.code, 0) << wrong.err;
+    EXPECT_NE(wrong.out.find("latitude of [site] is not that"), std::string::npos) << wrong.out;
+  }
 }
 
 }  // namespace

@@ -158,6 +158,24 @@ TEST(Linearizer, ChainsTheSlotsOfEveryTermAsTheWholeEquationDoes) {
     }
 }
 
+/// Output and spin axes exchanged, of one gyro and one accelerometer each way.
+TEST(Linearizer, ChainsThemForInstrumentsThatAreMountedOtherwise) {
+  Mounting otherwise;
+  for (Triads* triads : {&otherwise.gyro, &otherwise.accelerometer}) {
+    triads->second[0] = {2, 1.0};  // x z -y
+    triads->third[0] = {1, -1.0};
+    triads->second[2] = {1, -1.0};  // z -y x
+    triads->third[2] = {0, 1.0};
+  }
+  for (const std::size_t at : {in_a_slew, in_a_dwell})
+    for (const std::size_t t : visible_terms()) {
+      SCOPED_TRACE(TermLibrary::terms[t].key);
+      Model m(coupling_for(t), {t});
+      m.filter.mounting = otherwise;
+      expect_derivatives_of(m, Point(at));
+    }
+}
+
 TEST(Linearizer, ChainsThemForTermsThatAStudyBrings) {
   const OwnTermsHeld held(own_terms_of_every_kind());
   ASSERT_EQ(TermLibrary::terms.size(), TermLibrary::num_terms);
@@ -194,12 +212,13 @@ TEST(SlotDerivatives, ThreeAxesOfAGroupShareAnEvaluation) {
   // 13 groups of the base rates act by one slot each, eta and xi by one of E: 39 entries.
   const Layout layout = make_layout(base_spec(Coupling::eq5));
   std::vector<std::size_t> states(layout.params.begin(), layout.params.begin() + 39);
-  const SlotDerivatives<RatesHook, double> rates(base_spec(Coupling::eq5).model().terms, states);
+  const SlotDerivatives<RatesHook, double> rates(base_spec(Coupling::eq5).model().terms, Mounting(),
+                                                 states);
   EXPECT_EQ(rates.entries().size(), 39u);
 }
 
 TEST(SlotDerivatives, AParameterThatMeetsAllAxesIsFoundToDoSo) {
-  const auto met = slots_met<OffsetHook, terms::HangOff>();
+  const auto met = slots_met<OffsetHook, terms::HangOff>(Mounting());
   EXPECT_EQ(met[0], 0b111u);  // about a gimbal's axis
   EXPECT_EQ(met[3], 0b110u);  // x of a vector crossed with the specific force
 }

@@ -35,8 +35,8 @@ LaneLinearizer::LaneLinearizer(const DriftModel& model, const Layout& layout, Re
       layout_(layout),
       readout_(readout),
       theta_(TermLibrary::num_params),
-      rates_(model.terms, part_of(layout, 0, layout.num_rate)),
-      accelerometers_(model.terms, part_of(layout, layout.num_rate, layout.size())),
+      rates_(model.terms, model.mounting, part_of(layout, 0, layout.num_rate)),
+      accelerometers_(model.terms, model.mounting, part_of(layout, layout.num_rate, layout.size())),
       derivative_(std::max(rates_.entries().size(), accelerometers_.entries().size())) {
   for (std::size_t k = 0; k < theta_.size(); ++k)
     theta_[k] = Pack(layout.theta[static_cast<Eigen::Index>(k)]);
