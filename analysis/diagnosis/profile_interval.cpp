@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/stats/normal.hpp"
@@ -13,17 +14,27 @@ namespace {
 
 using Points = std::vector<Profile::Point>;
 
-/// Vertex of the parabola through a point and its neighbours; the point itself at an end and where
-/// there is no vertex between them.
-Profile::Point vertex_at(const Points& points, std::size_t k) {
+/// Vertex of the parabola through a least point and its neighbours; nothing at an end and where
+/// there is none between them.
+std::optional<Profile::Point> parabola_at(const Points& points, std::size_t k) {
   const Profile::Point& least = points[k];
-  if (k == 0 || k + 1 == points.size()) return least;
+  if (k == 0 || k + 1 == points.size()) return std::nullopt;
   const double a = points[k - 1].value - least.value, b = points[k + 1].value - least.value;
   const double fa = points[k - 1].loss - least.loss, fb = points[k + 1].loss - least.loss;
   const double square = (fb / b - fa / a) / (b - a), slope = fa / a - square * a;
-  if (!(square > 0.0)) return least;
+  if (!(square > 0.0)) return std::nullopt;
   const double at = -0.5 * slope / square;
-  return {least.value + at, least.loss + 0.5 * slope * at};
+  return Profile::Point{least.value + at, least.loss + 0.5 * slope * at};
+}
+
+/// That vertex, or the point itself where the vertex would be deeper than the point by as much as
+/// ends an interval of 95 %: then the best fit there is would lie outside its own interval, and the
+/// points are too far apart for a parabola.
+Profile::Point vertex_at(const Points& points, std::size_t k) {
+  const Profile::Point& least = points[k];
+  const auto vertex = parabola_at(points, k);
+  const bool believed = vertex && least.loss - vertex->loss < std::pow(stats::half_width_95, 2);
+  return believed ? *vertex : least;
 }
 
 /// A minimum of the loss and where it has grown to that of 95 % on either side; NaN beyond the
@@ -93,6 +104,9 @@ void want_in_valley(const Valley& v, const Points& points, std::vector<double>& 
     if (beside.loss - least.loss > std::pow(stats::half_width_95, 2))
       wanted.push_back(0.5 * (least.value + beside.value));
   };
+  // A top that nobody has fitted, a sigma below what was.
+  if (const auto vertex = parabola_at(points, v.least); vertex && least.loss - vertex->loss > 1.0)
+    wanted.push_back(vertex->value);
   if (v.least > 0) halve(points[v.least - 1]);
   if (v.least + 1 < points.size()) halve(points[v.least + 1]);
   // Points of a parabola at 1.5 and 3 sigma are 1.5 apart in the root of the loss.

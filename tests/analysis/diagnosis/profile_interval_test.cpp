@@ -78,5 +78,26 @@ TEST(ProfileInterval, OfAWideValleyBesideANarrowOneIsFoundByThePointsThatAreAske
   EXPECT_NEAR(p.high_95, 4.0 + 0.5 * stats::half_width_95, 0.05);
 }
 
+/// An onset on a plateau between two walls, as far as it was fitted: the parabola through the least
+/// point and its neighbours, one near and one far, has its vertex far below all of them.
+double plateau(double v) {
+  return v < 0.95 ? 1e3 * std::pow(v - 0.95, 2) + 0.5 : v > 2.0 ? 30.0 * (v - 2.0) : 0.0;
+}
+
+TEST(ProfileInterval, HoldsTheBestFitThereIs) {
+  std::vector<double> values{0.85, 0.9576, 0.9706, 1.388, 2.5};
+  Profile p;
+  // What was fitted has noise of its own: the near neighbour lies higher.
+  for (const double v : values)
+    p.points.push_back({v, v == 0.9576 ? 1.2 : v == 1.388 ? 2.2 : plateau(v)});
+  p = with_interval(std::move(p));
+  EXPECT_EQ(p.top, 0.9706);
+  EXPECT_LT(p.low_95, 0.9706);
+  EXPECT_GT(p.high_95, 1.388);
+  const std::vector<double> wanted = wanted_points(p, 1.0);
+  EXPECT_TRUE(std::ranges::any_of(wanted, [](double v) { return v > 1.0 && v < 1.388; }))
+      << "where the top would be";
+}
+
 }  // namespace
 }  // namespace drift::diagnosis::profile_interval_test
