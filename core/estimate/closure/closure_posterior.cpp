@@ -14,6 +14,7 @@ namespace {
 struct Slice {
   double value;           ///< of lambda, in prior sigmas
   double log;             ///< of its density, up to a constant
+  double cost;            ///< of the fit there
   VecX x;                 ///< mean of all parameters there, scaled
   MatX P;                 ///< covariance of the others there
   std::vector<Vec3> psi;  ///< attitudes there, in prior sigmas
@@ -42,6 +43,7 @@ class ClosurePosterior {
     const std::vector<Vec3> psi = problem_.scaled(fit.psi0_l);
     problem_.whiten_at(x, psi);
     add(x[lambda_], x, psi);
+    cost_at_fit_ = slices_.front().cost;
     look_everywhere(std::sqrt(fit.estimate.covariance(lambda_, lambda_)));
     refine();
   }
@@ -50,6 +52,12 @@ class ClosurePosterior {
     VecX mean;  ///< scaled
     MatX covariance;
   };
+  /// By how much the best of the slices fits better than the fit's own lambda does: it ended in a
+  /// side valley, and what is told of it is told of another point.
+  double better_than_fit() const {
+    return std::max(0.0, cost_at_fit_ - std::ranges::min(slices_, {}, &Slice::cost).cost);
+  }
+
   Moments moments() const {
     const Eigen::Index n = slices_.front().x.size();
     const VecX mass = masses() / masses().sum();
@@ -154,8 +162,12 @@ class ClosurePosterior {
     prior.leftCols(n).setIdentity();
     const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
     const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
-    Slice s{value, -0.5 * at.cost - R.diagonal().array().abs().log().sum(), at.x,
-            R_inv * R_inv.transpose(), at.psi};
+    Slice s{value,
+            -0.5 * at.cost - R.diagonal().array().abs().log().sum(),
+            at.cost,
+            at.x,
+            R_inv * R_inv.transpose(),
+            at.psi};
     for (const MatX& top : tops) s.log -= top.leftCols<3>().diagonal().array().abs().log().sum();
     s.P.row(lambda_).setZero();
     s.P.col(lambda_).setZero();
@@ -167,6 +179,7 @@ class ClosurePosterior {
   Eigen::Index lambda_;
   std::vector<Slice> slices_;  ///< by value
   double top_ = -std::numeric_limits<double>::infinity();
+  double cost_at_fit_ = 0.0;
 };
 
 }  // namespace
@@ -175,8 +188,10 @@ EstimateResult over_closure(const FilterSpec& filter, const MeasuredTest& test,
                             const BatchResult& fit) {
   EstimateResult out = fit.estimate;
   if (out.status != EstimateStatus::ok || out.find(closure_param) == nullptr) return out;
-  const auto [mean, P] = ClosurePosterior(filter, test, fit).moments();
+  const ClosurePosterior posterior(filter, test, fit);
+  const auto [mean, P] = posterior.moments();
   out.covariance = P;
+  out.statistic -= posterior.better_than_fit();
   for (std::size_t k = 0; k < out.parameters.size(); ++k) {
     ParameterEstimate& p = out.parameters[k];
     const auto i = static_cast<Eigen::Index>(k);
@@ -207,6 +222,7 @@ bool ended_at_one_point(const BatchResult& a, const BatchResult& b) {
 EstimateResult with_moments_of(const EstimateResult& over, const BatchResult& fit) {
   EstimateResult out = fit.estimate;
   out.covariance = over.covariance;
+  out.statistic = std::min(out.statistic, over.statistic);
   for (std::size_t k = 0; k < out.parameters.size(); ++k) {
     out.parameters[k].value = over.parameters[k].value;
     out.parameters[k].sigma = over.parameters[k].sigma;

@@ -13,8 +13,10 @@ namespace drift {
 /// lambda E (physics.md 1.7): a bent valley, whose curvature at its deepest point says next to
 /// nothing of how far it goes. At one lambda the rest is linear to first order in E, so that
 /// Laplace's integral is good. The cost is that of the fit, its Gaussian prior of lambda included.
-/// fit: whole, of this filter and test. Unchanged where lambda is no state or the fit did not
-/// converge.
+/// The
+/// statistic is that of the deepest point that is found on the way, should the fit have ended in a
+/// side valley. fit: whole, of this filter and test. Unchanged where lambda is no state or the fit
+/// did not converge.
 EstimateResult over_closure(const FilterSpec& filter, const MeasuredTest& test,
                             const BatchResult& fit);
 

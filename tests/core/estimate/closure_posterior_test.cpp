@@ -121,6 +121,40 @@ TEST(ClosurePosterior, WhatAFitLeftOutAsAnOutlierIsLeftOut) {
   }
 }
 
+/// From starts on both sides a fit may end in a side valley; what is told of it is not.
+TEST(ClosurePosterior, TheStatisticIsThatOfTheDeepestPointWhateverTheStart) {
+  const Scene s;
+  constexpr std::size_t runs = 60;
+  struct Both {
+    double fits, told;  ///< differences of the two starts
+  };
+  const auto apart = mc::run_campaign(runs, [&](std::size_t run) {
+    const Simulation sim = s.simulated(run);
+    const MeasuredTest test{s.timeline, s.readout, sim.measured};
+    Theta far = make_layout(s.filter).theta;
+    far[closure_param] = 3.0;
+    for (const char* const key : {"eta_x", "eta_y", "eta_z", "xi_x", "xi_y", "xi_z"}) {
+      const std::size_t i = *TermLibrary::find(key);
+      far[i] += (run % 2 == 0 ? 2.0 : -2.0) * s.filter.priors[i].sigma();
+    }
+    const BatchResult a = fit_batch(s.filter, test, make_layout(s.filter).theta),
+                      b = fit_batch(s.filter, test, far);
+    if (a.estimate.status != EstimateStatus::ok || b.estimate.status != EstimateStatus::ok)
+      return Both{0.0, 0.0};
+    return Both{std::abs(a.estimate.statistic - b.estimate.statistic),
+                std::abs(over_closure(s.filter, test, a).statistic -
+                         over_closure(s.filter, test, b).statistic)};
+  });
+  double fits = 0.0, told = 0.0;
+  for (const Both& b : apart) {
+    fits = std::max(fits, b.fits);
+    told = std::max(told, b.told);
+  }
+  std::printf("largest difference: of fits %.2f, as told %.2f\n", fits, told);
+  EXPECT_GT(fits, 1.0) << "no fit ended in a side valley: nothing is tried";
+  EXPECT_LT(told, 0.1);
+}
+
 TEST(ClosurePosterior, AFilterWithoutLambdaIsLeftAsItIs) {
   Scene s;
   s.filter = base_filter(Coupling::eq5);
