@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 
 #include "core/config/nearest.hpp"
 
@@ -27,10 +26,9 @@ std::string check_seed(const std::string& text) {
   const char* all = text.data() + text.size();
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(begin, all, value, hexadecimal ? 16 : 10);
-  constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();  // of TOML
-  if (error == std::errc() && end == all && (hexadecimal || value <= most)) return {};
+  if (error == std::errc() && end == all) return {};
   return fmt::format(
-      "'{}' is no seed (expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1). "
+      "'{}' is no seed (expected a whole number from 0 to 2^64-1, decimal or as \"0x...\"). "
       "Choose another",
       text);
 }

@@ -2,7 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdint>
+#include <limits>
+
 namespace drift::cli {
+namespace {
+
+/// A seed as a study file has it: whole numbers of TOML end at 2^63-1, as manifests print them they
+/// go to 2^64-1.
+std::string seed_of_toml(const std::string& seed) {
+  std::uint64_t value = 0;
+  const char* const end = seed.data() + seed.size();
+  const bool decimal = std::from_chars(seed.data(), end, value).ptr == end;
+  return decimal && value > std::numeric_limits<std::int64_t>::max()
+             ? fmt::format("\"{:#x}\"", value)
+             : seed;
+}
+
+}  // namespace
 
 mc::Overrides StudyArguments::overrides() const {
   mc::Overrides overrides;
@@ -14,7 +32,7 @@ mc::Overrides StudyArguments::overrides() const {
                                                     text));
     overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
-  if (seed) overrides.emplace_back("monte_carlo.seed", *seed);
+  if (seed) overrides.emplace_back("monte_carlo.seed", seed_of_toml(*seed));
   return overrides;
 }
 

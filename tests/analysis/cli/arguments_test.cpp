@@ -29,9 +29,25 @@ TEST(Arguments, NumbersOutOfRangeNameTheRange) {
                 "(expected a whole number from 1 to 1000000000)");
   for (const char* seed : {"-1", "0x", "18446744073709551616", "1.5"})
     expect_says(refusal("run x.toml --seed " + std::string(seed)),
-                "(expected a whole number from 0 to 2^63-1, or \"0x...\" up to 2^64-1)");
+                "(expected a whole number from 0 to 2^64-1, decimal or as \"0x...\")");
   expect_says(refusal("simulate x.toml -o x.csv --run -1"),
               "(expected a whole number from 0 to 999999999)");
+}
+
+TEST(Arguments, TheLargestSeedIsTakenAsManifestsPrintIt) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("s.toml", short_study);
+  std::vector<std::string> made;
+  for (const std::string seed : {"18446744073709551615", "0xffffffffffffffff", "1"}) {
+    made.push_back(folder.file(seed + ".csv"));
+    ASSERT_EQ(driftscope("simulate " + study + " --seed " + seed + " -o " + made.back()).code, 0);
+  }
+  const auto rows = [](const std::string& file) {
+    const std::string text = text_of(file);
+    return text.substr(text.find("time ["));
+  };
+  EXPECT_EQ(rows(made[0]), rows(made[1]));
+  EXPECT_NE(rows(made[0]), rows(made[2]));
 }
 
 TEST(Arguments, UnknownCommandsAndOptionsGetTheNearestOne) {
