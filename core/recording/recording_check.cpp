@@ -186,8 +186,8 @@ Unit made_celsius(std::vector<double>& values, const Unit& unit) {
 }
 
 /// Makes angles decimal where their digits are minutes and seconds, or looks whether they are.
-void take_digits(RawColumn& column, AngleDigits said, const std::vector<std::size_t>& lines,
-                 MinutesAndSeconds& digits, Problems& problems) {
+void take_digits(RawColumn& column, AngleDigits said, const Recording& r, MinutesAndSeconds& digits,
+                 Problems& problems) {
   if (said == AngleDigits::automatic && column.name.starts_with("gimbal_"))
     digits.look_at(column.values);
   if (said != AngleDigits::minutes_and_seconds) return;
@@ -196,7 +196,7 @@ void take_digits(RawColumn& column, AngleDigits said, const std::vector<std::siz
     if (std::isnan(number)) continue;
     column.values[i] = angle_from_minutes_and_seconds(number);
     if (std::isnan(column.values[i]))
-      problems.add(fmt::format("line {}, {}", lines[i], column.name),
+      problems.add(place_in(r, i, column.name),
                    fmt::format("{} has 60 minutes or seconds, or more", number),
                    "degrees, minutes and seconds as in 45.3015",
                    "Remove angles = \"dd.mmss\" from [recording] of the study file if the angles "
@@ -256,7 +256,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     if (temperature && c.name != "temperature") r.unmapped_temperature = said.texts().front();
     r.remarks.add(said);
     if (is_angle(c.name) && same_unit(unit, unit::deg))
-      take_digits(c, raw.angles, r.lines, digits, problems);
+      take_digits(c, raw.angles, r, digits, problems);
     for (double& x : c.values) x *= c.sign * unit.to_si;
     if (c.name == "temperature") unit = made_celsius(c.values, unit);
     add_offset(c, unit, problems);

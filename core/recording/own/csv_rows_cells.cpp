@@ -76,7 +76,9 @@ std::optional<CsvRows::Complaint> CsvRows::read_cell(std::size_t i, std::string_
   const bool may_lack = use.role == Role::sensor || use.role == Role::covariate;
   if (may_lack && std::ranges::find(format_.missing, cell) != format_.missing.end())
     return std::nullopt;
-  if (use.role == Role::sensor && is_angle(use.channel) && parsed.kind == Kind::text)
+  // Beside numbers of such digits the same column would hold two kinds of angles.
+  const bool by_marks = format_.angles != AngleDigits::minutes_and_seconds;
+  if (by_marks && use.role == Role::sensor && is_angle(use.channel) && parsed.kind == Kind::text)
     if (const auto degrees = angle_in_minutes_and_seconds(cell)) {
       const auto unit = use.unit ? parse_recording_unit(*use.unit) : std::nullopt;
       if (!unit) uses_[i].unit = "deg";

@@ -91,11 +91,9 @@ std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) 
   if (c.channel == "time") return unit_of_epoch(c);
   constexpr double full_turn = 7.0;  // [rad] no angle is larger
   const bool heading = c.channel == "case_heading";
-  if ((heading || c.channel.starts_with("gimbal_")) && std::max(-c.low, c.high) > full_turn)
-    return "deg";
-  if ((heading || c.channel.starts_with("gimbal_")) && !c.words.empty() &&
-      angle_in_minutes_and_seconds(c.words.front()))
-    return "deg";
+  const bool in_degrees = std::max(-c.low, c.high) > full_turn ||
+                          (!c.words.empty() && angle_in_minutes_and_seconds(c.words.front()));
+  if (is_angle(c.channel) && in_degrees) return "deg";
   if (heading && c.low == 0.0 && c.high == 0.0) return "deg";  // North in every unit
   return c.channel == "temperature" ? "" : "?";                // a covariate does without
 }

@@ -206,5 +206,21 @@ TEST(OwnRows, AnglesInDegreesMinutesAndSecondsAreRead) {
   EXPECT_NE(said.find("found '-89:57:40.7'"), std::string::npos) << said;
 }
 
+/// What is said to be 45.3015 is converted once: an angle with marks beside it would be, twice.
+TEST(OwnRows, AnglesWithMarksAreNoneWhereTheirDigitsAreSaidToBeMinutesAndSeconds) {
+  const Folder folder;
+  const std::string path =
+      folder.write("own.csv",
+                   "time [s],position,gimbal_outer [deg],gimbal_middle [deg],gimbal_inner [deg]\n"
+                   "1,1,45.3015,0,0\n2,1,45:30:15,0,0\n3,1,45.3015,0,0\n");
+  try {
+    read_recording(path, {.angles = AngleDigits::minutes_and_seconds}, RecordingKind::platform,
+                   gravity);
+    ADD_FAILURE() << "read";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("found '45:30:15'"), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace drift::own_rows_test
