@@ -18,9 +18,11 @@ const T& one_of(const std::vector<T>& list, Stream& stream) {
   return list[static_cast<std::size_t>(stream.uniform() * static_cast<double>(list.size()))];
 }
 
-/// A value of a nonlinear parameter [SI]: between the ends of its grid, not on it.
+/// A value of a nonlinear parameter [SI]: between the ends of its grid, not on it; a moment is any
+/// of the test.
 double draw_setting(const ParamSpec& spec, double duration, Stream& stream) {
   const Grid& grid = spec.grid;
+  if (spec.kind == ParamKind::moment) return duration * stream.uniform();
   if (grid.size == 0) return spec.prior_si().mean();
   if (spec.kind == ParamKind::discrete)
     return grid.values[static_cast<std::size_t>(stream.uniform() *

@@ -56,7 +56,7 @@ Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal,
     std::map<std::string, std::vector<std::size_t>> axes;
     for (const std::size_t i : missing_parameters(term, nominal))
       axes[std::string(TermLibrary::specs[i].axis)].push_back(i);
-    for (const Settings& settings : inference::settings_of(term, nominal.active))
+    for (const Settings& settings : inference::settings_of(term, nominal.active, timeline))
       for (const auto& [axis, params] : axes) {
         MatX signals(signal.size(), static_cast<Eigen::Index>(params.size()) + 1);
         for (std::size_t k = 0; k < params.size(); ++k)

@@ -55,6 +55,7 @@ std::string asks_for(const TermInfo& term) {
 }
 
 std::string grid_text(const ParamSpec& spec) {
+  if (spec.kind == ParamKind::moment) return "; profiled over the test";
   std::string text;
   for (const double v : spec.grid)
     text += fmt::format("{}{:g}", text.empty() ? "; profiled over " : ", ", v);

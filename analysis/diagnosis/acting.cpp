@@ -30,10 +30,6 @@ std::optional<int> number_of(std::string_view axis, Equation equation) {
   return static_cast<int>(at - std::begin(names));
 }
 
-bool is_onset(const search::CauseParameter& p) {
-  return TermLibrary::specs[p.param].kind == ParamKind::nonlinear && p.key.ends_with("_t0");
-}
-
 /// The axis of the size that is largest against its prior, as the words of the verdict choose it.
 std::string_view largest_axis(const search::Cause& cause) {
   std::string_view axis;
@@ -57,7 +53,8 @@ std::optional<Acting> acting_of(const search::Cause& cause) {
   Acting out{*equation, number_of(cause.axis.empty() ? largest_axis(cause) : cause.axis, *equation),
              std::nullopt};
   for (const search::CauseParameter& p : cause.parameters)
-    if (is_onset(p)) out.onset = p.value * TermLibrary::specs[p.param].unit.to_si;
+    if (TermLibrary::specs[p.param].kind == ParamKind::moment)
+      out.onset = p.value * TermLibrary::specs[p.param].unit.to_si;
   return out;
 }
 

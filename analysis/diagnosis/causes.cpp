@@ -20,7 +20,7 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
                              std::string(spec.unit.symbol.view()), profiled};
   if (const ParameterEstimate* e = r.after.fit.estimate.find(param)) {
     out.value = e->value / spec.unit.to_si;
-    const double spread = profiled && spec.kind == ParamKind::nonlinear
+    const double spread = profiled && spec.continuous()
                               ? search::setting_spread(nominal, r.choices, which, param, e->value)
                               : 0.0;
     out.sigma = std::max(e->sigma, spread) / spec.unit.to_si;

@@ -59,8 +59,7 @@ std::vector<double> held_values(const search::Search& found, const search::Refit
 std::vector<double> next_values(const Profile& p, double outward) {
   const ParamSpec& spec = TermLibrary::specs[p.param];
   std::vector<double> values = wanted_points(p, outward);
-  if (spec.kind == ParamKind::nonlinear)
-    std::erase_if(values, [&](double v) { return v * p.value <= 0.0; });
+  if (spec.continuous()) std::erase_if(values, [&](double v) { return v * p.value <= 0.0; });
   for (double& v : values) v *= spec.unit.to_si;
   return values;
 }

@@ -118,18 +118,33 @@ std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set,
   return label;
 }
 
+/// Over which a setting is profiled, SI. A moment may be any of the test: equal parts of it are
+/// equally likely, and each is stood for by its middle.
+std::vector<double> values_of(const ParamSpec& spec, const Timeline& timeline) {
+  std::vector<double> values;
+  if (spec.kind == ParamKind::moment) {
+    const double begin = timeline.intervals.front().t0, end = timeline.intervals.back().t1;
+    for (std::size_t k = 0; k < Grid::capacity; ++k)
+      values.push_back(begin + (static_cast<double>(k) + 0.5) / Grid::capacity * (end - begin));
+  }
+  for (const double v : spec.grid) values.push_back(v * spec.unit.to_si);
+  return values;
+}
+
 }  // namespace
 
-std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known) {
+std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known,
+                                  const Timeline& timeline) {
   std::vector<Settings> all{{}};
   for (std::size_t i = term.first; i < term.first + term.count; ++i) {
-    const ParamSpec& spec = TermLibrary::specs[i];
-    if (!spec.setting() || known[i] || spec.grid.size == 0) continue;
+    if (!TermLibrary::specs[i].setting() || known[i]) continue;
+    const std::vector<double> values = values_of(TermLibrary::specs[i], timeline);
+    if (values.empty()) continue;
     std::vector<Settings> next;
     for (const Settings& s : all)
-      for (const double v : spec.grid) {
+      for (const double v : values) {
         next.push_back(s);
-        next.back().emplace_back(i, v * spec.unit.to_si);
+        next.back().emplace_back(i, v);
       }
     all = std::move(next);
   }
@@ -180,7 +195,7 @@ CandidateSet library_candidates(const FilterSpec& nominal, const Theta& theta,
     if (timeline.of_case && !is_of_case(term)) continue;
     // The couplings that are no member of the lambda family have no lambda to add.
     if (term.key == closure_term && family_of(nominal.coupling) != Coupling::lambda) continue;
-    const auto settings = settings_of(term, known);
+    const auto settings = settings_of(term, known, timeline);
     const auto first = static_cast<int>(out.signatures.size());
     for (const Settings& s : settings)
       for (const std::size_t i : missing) {

@@ -10,9 +10,10 @@ namespace drift::inference {
 /// Values of nonlinear parameters: (param, SI value).
 using Settings = std::vector<std::pair<std::size_t, double>>;
 
-/// Every combination of the grids of a term's settings but those `known`; one empty one without
-/// any.
-std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known);
+/// Every combination of the grids of a term's settings but those `known`, moments spread over the
+/// test; one empty one without any.
+std::vector<Settings> settings_of(const TermInfo& term, const ParamMask& known,
+                                  const Timeline& timeline);
 
 /// One way a candidate may look: its columns, at one setting of the nonlinear parameters.
 struct Variant {

@@ -39,7 +39,7 @@ FilterSpec with_causes(const FilterSpec& nominal, const inference::CandidateSet&
     }
     for (const auto& [i, value] : c.variants[choice.variant].settings) {
       filter.active.set(i);
-      const bool refined = TermLibrary::specs[i].kind == ParamKind::nonlinear;
+      const bool refined = TermLibrary::specs[i].continuous();
       const double spacing = refined ? grid_spacing(c, i, value) : 0.0;
       filter.priors[i] = spacing > 0.0 ? normal(value, spacing) : fixed(value);
     }

@@ -16,9 +16,10 @@ namespace {
 constexpr int between = 3;       // settings put between each two points
 constexpr int parts_about = 16;  // of a cell about a setting that was found
 
-/// Time constants, periods and moments are spread by factors.
-double part_of_the_way(double a, double b, double part) {
-  return a > 0.0 && b > 0.0 ? a * std::pow(b / a, part) : a + part * (b - a);
+/// Time constants and periods are spread by factors, moments evenly.
+double part_of_the_way(ParamKind kind, double a, double b, double part) {
+  return kind != ParamKind::moment && a > 0.0 && b > 0.0 ? a * std::pow(b / a, part)
+                                                         : a + part * (b - a);
 }
 
 /// The columns of a candidate at one more setting, computed once for all candidates of its term.
@@ -75,7 +76,8 @@ void fill(inference::Candidate& c, std::size_t v, int settings, std::size_t plac
   std::vector<inference::Variant> more;
   for (int k = 1; k <= settings; ++k) {
     inference::Variant one = low;
-    one.settings[place].second = part_of_the_way(low.settings[place].second,
+    one.settings[place].second = part_of_the_way(TermLibrary::specs[low.settings[place].first].kind,
+                                                 low.settings[place].second,
                                                  high.settings[place].second, k / (settings + 1.0));
     one.columns = columns.of(c, low, place, one.settings[place].second);
     one.share = (1.0 - kept) * (low.share + high.share) / settings;
@@ -152,7 +154,7 @@ std::optional<std::size_t> continuous_setting(const inference::Candidate& c) {
   std::optional<std::size_t> found;
   const auto& settings = c.variants.front().settings;
   for (std::size_t k = 0; k < settings.size(); ++k) {
-    if (TermLibrary::specs[settings[k].first].kind != ParamKind::nonlinear) continue;
+    if (!TermLibrary::specs[settings[k].first].continuous()) continue;
     if (found) return {};
     found = k;
   }

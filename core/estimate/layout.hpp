@@ -40,7 +40,7 @@ struct Layout {
 /// Whether a filter may have a parameter as a state. Of a discrete one it knows the value; of the
 /// size of something random, the root mean square.
 inline bool can_be_state(const ParamSpec& spec) {
-  return spec.kind == ParamKind::linear || spec.kind == ParamKind::nonlinear;
+  return spec.amplitude() || spec.continuous();
 }
 
 /// The layout of a model with priors: every active parameter whose prior is not fixed is a state.

@@ -13,8 +13,9 @@ namespace drift {
 /// How a parameter enters, and so how it can be found.
 enum class ParamKind {
   linear,     ///< an amplitude: the measurements depend on it (almost) linearly
-  nonlinear,  ///< a time constant, an onset: known unless a study gives it a prior, or profiled on
-              ///< its grid
+  nonlinear,  ///< a time constant: known unless a study gives it a prior, or profiled on its grid
+  moment,     ///< when something sets in, since the start of the test: as nonlinear, but profiled
+              ///< over the test, whatever its length
   discrete,   ///< a number that is one of a few: never a state of a filter, profiled on its grid
   noise,      ///< the size of something random: drives the truth; a filter takes it as known
 };
@@ -48,8 +49,10 @@ struct ParamSpec {
   /// The size of an effect, which may be missing; or what an effect cannot do without: a time
   /// constant, a harmonic number. What is random is neither.
   constexpr bool amplitude() const { return kind == ParamKind::linear; }
-  constexpr bool setting() const {
-    return kind == ParamKind::nonlinear || kind == ParamKind::discrete;
+  constexpr bool setting() const { return continuous() || kind == ParamKind::discrete; }
+  /// A setting that may lie between any two values.
+  constexpr bool continuous() const {
+    return kind == ParamKind::nonlinear || kind == ParamKind::moment;
   }
 };
 
@@ -98,6 +101,12 @@ consteval std::array<ParamSpec, 1> profiled(ParamKind kind, Unit unit, double va
                                             std::string_view enters) {
   return {
       ParamSpec{Name(Key.view()), Name(Key.view()), {}, unit, fixed(value), enters, kind, grid}};
+}
+
+/// When something sets in, since the start of the test; `value` where a study does not say.
+template <FixedString Key>
+consteval std::array<ParamSpec, 1> moment(Unit unit, double value, std::string_view enters) {
+  return profiled<Key>(ParamKind::moment, unit, value, {}, enters);
 }
 
 /// Several lists of parameters, one after the other.

@@ -15,7 +15,7 @@ using config::Option;
 constexpr auto& known = TermLibrary::specs;
 
 /// Far outside the default prior a value is a slip of the unit; misalignments are small angles;
-/// time constants and sizes of random things are positive.
+/// time constants, moments and sizes of random things are positive.
 Option plausible(std::size_t param) {
   const ParamSpec& spec = known[param];
   // Of a setting that a study brings itself nobody knows what is plausible.
@@ -26,7 +26,7 @@ Option plausible(std::size_t param) {
   double limit = sigmas * std::max(std::abs(spec.prior.a), std::abs(spec.prior.b));
   if (spec.unit.same_dimension(unit::rad)) limit = std::min(limit, small_angle / spec.unit.to_si);
   double least = -limit;
-  if (spec.kind == ParamKind::noise) least = 0.0;
+  if (spec.kind == ParamKind::noise || spec.kind == ParamKind::moment) least = 0.0;
   if (spec.kind == ParamKind::nonlinear)
     least = 1e-3 * *std::min_element(spec.grid.begin(), spec.grid.end());
   if (spec.kind == ParamKind::discrete) {

@@ -99,7 +99,7 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cau
     for (const search::CauseParameter& p : cause.parameters) {
       if (!patched.active[p.param] || patched.priors[p.param].sigma() <= 0.0) continue;
       found.push_back(&p);
-      if (p.param == closure_param || TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
+      if (p.param == closure_param || TermLibrary::specs[p.param].continuous())
         far_from_linear.push_back(&p);
     }
   }

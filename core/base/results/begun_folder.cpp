@@ -21,7 +21,7 @@ BegunFolder::BegunFolder(const ResultsFolder& folder) : path_(folder.path) {
     fs::create_directories(path_, error);
     if (error) throw_cannot_write(path_.string(), error.message());
     ResultsRegister known(path_.string());
-    marked_ = !known.exists();
+    marked_ = known.command().empty();
     // Of a folder whose register is lost nothing is taken for the command's own that does not say
     // so under a checksum of its own: a file called report.html may be anybody's.
     if (marked_) known.add(folder.command, {});

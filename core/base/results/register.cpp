@@ -54,14 +54,14 @@ ResultsRegister::ResultsRegister(std::string folder)
   std::error_code none;
   // One that is no regular file is not ours; writing to it is refused.
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_, none))) return;
-  exists_ = true;
   std::istringstream file(file_text(path_).value_or(""));
   bool first = true;
   for (std::string line; std::getline(file, line); first = false) {
     if (first && !may_begin_one(line)) foreign_ = true;
     if (line.starts_with(first_words)) {
-      if (command_.empty())
-        command_ = line.substr(first_words.size(), line.find(':') - first_words.size());
+      const std::size_t end = line.find(':');
+      if (command_.empty() && end != std::string::npos)
+        command_ = line.substr(first_words.size(), end - first_words.size());
     } else if (line.size() > hash_digits + 2 && line.substr(hash_digits, 2) == "  ") {
       hashes_.emplace(line.substr(hash_digits + 2), line.substr(0, hash_digits));
     }
@@ -77,14 +77,14 @@ std::vector<std::string> ResultsRegister::names() const {
 
 void ResultsRegister::add(const std::string& command, const HashedFiles& files) {
   std::string lines;
-  if (!exists_)
+  // One that is there may lack its first line: a process was killed before it was written.
+  if (command_.empty())
     lines = fmt::format("{}{}: the files that driftscope wrote here; it replaces no others\n",
                         first_words, command);
   for (const auto& [name, hash] : files)
     if (hashes_.emplace(name, hash).second) lines += fmt::format("{}  {}\n", hash, name);
   if (lines.empty()) return;
-  if (!exists_) command_ = command;
-  exists_ = true;
+  if (command_.empty()) command_ = command;
   const Appending file(path_);
   if (file.ends_within_a_line())
     lines.insert(lines.begin(), '\n');  // of a process that ended while writing

@@ -21,10 +21,10 @@ class ResultsRegister {
   /// Reads that of a folder; empty if there is none.
   explicit ResultsRegister(std::string folder);
 
-  bool exists() const { return exists_; }
   /// There is a file of that name, which driftscope did not begin.
   bool is_foreign() const { return foreign_; }
-  /// The command that made the folder; empty if that is not known.
+  /// The command that made the folder; empty if that is not known: there is no register, or its
+  /// maker was killed before the first line was whole.
   const std::string& command() const { return command_; }
   /// The names, each once.
   std::vector<std::string> names() const;
@@ -33,13 +33,13 @@ class ResultsRegister {
     return hashes_.contains({name, hash});
   }
 
-  /// Notes names with their hashes; makes the file if need be. Any number of processes may do so at
-  /// the same time. InputError (io).
+  /// Notes names with their hashes; makes the file, or its first line, if need be. Any number of
+  /// processes may do so at the same time. InputError (io).
   void add(const std::string& command, const HashedFiles& files);
 
  private:
   std::string path_, command_;
-  bool exists_ = false, foreign_ = false;
+  bool foreign_ = false;
   std::set<std::pair<std::string, std::string>> hashes_;  ///< (name, hash)
 };
 

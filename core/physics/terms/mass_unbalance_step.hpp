@@ -16,9 +16,7 @@ struct MassUnbalanceStep {
   static constexpr Subsystem subsystem = Subsystem::gyro;
   static constexpr auto params = join(
       per_axis<"dD_I">(unit::deg_per_h_per_g, normal(0.0, 0.2), "w_l, times a_I after the step"),
-      profiled<"dD_t0">(ParamKind::nonlinear, unit::hour, 6.0,
-                        {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 18.0, 21.0},
-                        "time of the step since the start of the test"));
+      moment<"dD_t0">(unit::hour, 6.0, "time of the step since the start of the test"));
   static constexpr Needs needs{.clock = true};
   static constexpr double width = 120.0;  // [s]
 

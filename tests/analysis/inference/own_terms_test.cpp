@@ -206,7 +206,7 @@ TEST(OwnTerm, IsProfiledOverItsGridAndKnownWithoutOne) {
                "A = { unit = 'deg/h', prior = 0.05 }, P = { unit = 'min', value = 40, prior = 3 "
                "}"));
   const auto settings = [](const char* key) {
-    return inference::settings_of(TermLibrary::terms[TermLibrary::find_term(key).value()], {});
+    return inference::settings_of(TermLibrary::terms[TermLibrary::find_term(key).value()], {}, {});
   };
   ASSERT_EQ(settings("grids").size(), 3u);
   EXPECT_NEAR(settings("grids")[2][0].second, 80.0 * 60.0, 1e-9);

@@ -207,6 +207,21 @@ TEST(ResultsFolderOf, AnEndAtAnyMomentLeavesAFolderThatCanBeUsedAgain) {
   EXPECT_NO_THROW(require_results_folder(folder)) << "what is noted later has a line of its own";
 }
 
+TEST(ResultsFolderOf, AKillBeforeTheFirstLineOfItsListIsWholeLeavesItTheCommands) {
+  const ScratchFolder scratch;
+  const ResultsFolder folder{scratch.file("out"), "blind"};
+  begin_results(folder);
+  const std::string whole = text_of(scratch.file("out/.driftscope"));
+  for (std::size_t bytes = 0; bytes <= whole.size(); ++bytes) {
+    scratch.write("out/.driftscope", whole.substr(0, bytes));
+    begin_results(folder);
+    fs::create_directory(scratch.file("out/trials"));  // what a worker goes on with
+    EXPECT_EQ(results_of(folder.path), "blind") << bytes;
+    EXPECT_NO_THROW(require_results_folder(folder)) << bytes;
+    fs::remove(scratch.file("out/trials"));
+  }
+}
+
 TEST(ResultsFolderOf, ManyMayBeginItAtTheSameTime) {
   const ScratchFolder scratch;
   for (int round = 0; round < 200; ++round) {

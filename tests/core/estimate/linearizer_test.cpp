@@ -42,7 +42,7 @@ struct Model {
     theta[closure_param] = coupling == Coupling::lambda ? 0.4 : 0.0;
     // Settings become states too: time constants, onsets, widths.
     for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-      if (filter.active[i] && TermLibrary::specs[i].kind == ParamKind::nonlinear)
+      if (filter.active[i] && TermLibrary::specs[i].continuous())
         filter.priors[i] = normal(TermLibrary::specs[i].prior_si().mean(),
                                   0.1 * TermLibrary::specs[i].prior_si().mean());
     layout = make_layout(filter);

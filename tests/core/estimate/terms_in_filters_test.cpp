@@ -18,7 +18,7 @@ FilterSpec filter_with(std::size_t term) {
   FilterSpec filter = base_filter(coupling_for(term));
   filter.active = only({"D_F", "eta"}) | term_params(term);
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-    if (TermLibrary::specs[i].kind == ParamKind::nonlinear)
+    if (TermLibrary::specs[i].continuous())
       filter.priors[i] = normal(filter.priors[i].a, 0.2 * filter.priors[i].a);
   return filter;
 }

@@ -84,7 +84,7 @@ bool without_derivative(std::size_t i) {
   const ParamKind kind = TermLibrary::specs[i].kind;
   const TermInfo& term = TermLibrary::owner(i);
   return kind == ParamKind::discrete || kind == ParamKind::noise ||
-         (kind == ParamKind::nonlinear && term.memory > 0);
+         (TermLibrary::specs[i].continuous() && term.memory > 0);
 }
 
 TEST(EveryTerm, DerivativesByDualNumbersAreThoseByDifferences) {
