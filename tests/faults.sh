@@ -5,6 +5,7 @@
 #
 #   tests/faults.sh PROGRAM SYNTHETIC FAULTS CONFIG [KIND...]
 #
+# In the end the process is killed before every such call instead.
 # FAULTS is the library of tests/support/fault_injection.cpp. Some thousand runs of hundredths of a second.
 set -uo pipefail
 
@@ -87,10 +88,31 @@ each_folder() {  # CHECK COMMAND...
   echo "completed after every fault: ${*##*/}"
 }
 
+# The same where the process is killed before the call: what it left is completed, whatever it is.
+each_kill() {  # CHECK COMMAND...
+  local check=$1 folder=$scratch/folder at reference
+  shift
+  rm -rf "$folder"
+  "$@" -o "$folder" >/dev/null 2>"$scratch/err" || fail "$* without a kill"
+  reference=$($check "$folder")
+  for ((at = 0; ; ++at)); do
+    rm -rf "$folder"
+    DRIFT_FAULT_SIGNAL=9 faulty any 0 $at "$@" -o "$folder"
+    [ -e "$scratch/hit" ] || break
+    total=$((total + 1))
+    "$@" -o "$folder" >/dev/null 2>"$scratch/err" || fail "$* after a kill before call $at: not completed"
+    [ "$($check "$folder")" = "$reference" ] || fail "$* after a kill before call $at: other results"
+    ls -A "$folder" | grep -q '^\.driftscope-' && fail "$* after a kill before call $at: temporary files are left"
+  done
+  echo "completed after every kill: ${*##*/}"
+}
+
 digest() { "$synthetic" verify "$1" --sample 0% 2>&1 | sed -n 's/^results //p'; }
 # When it was made is all in which two calls may differ.
 dateless() { cat "$@" | sed 's/^  "date": "[^"]*",$//' | sha256sum; }
 numbers() { dateless "$1"/identification.json "$1"/recording.csv "$1"/*.svg; }
+answers() { cat "$1"/key.json "$1"/answers.json "$1"/trials/*/recording.csv | sha256sum; }
+diagnoses() { sed '/^ "seconds": {/,/^ }/d' "$1"/diagnosis.json | dateless - "$1"/*.svg; }
 ranks() { dateless "$1"/rank.json "$1"/*.svg; }
 
 cat >"$scratch/synthetic.toml" <<'EOF'
@@ -109,6 +131,34 @@ coupling = "eq5"
 runs = 320
 allowed_failures = 99
 EOF
+blind=$scratch/blind.toml
+cat >"$blind" <<'EOF'
+schema = 1
+[site]
+latitude = "45.75 deg"
+[plan]
+preset = "six"
+dwell  = "15 min"
+sample = "180 s"
+[readout]
+accelerometer_noise = "5 ug"
+gimbal_noise        = "5 arcsec"
+[truth]
+coupling = "eq5"
+[[filter]]
+name     = "nominal"
+coupling = "eq5"
+[monte_carlo]
+seed = 5
+[blind]
+trials = 2
+plans  = ["six"]
+sizes  = [6]
+most_prior_sigmas = 100
+[blind.shares]
+null   = 1
+single = 1
+EOF
 "$synthetic" run "$scratch/synthetic.toml" -o "$scratch/study" >/dev/null 2>&1 || fail "the study"
 
 for format in csv h5 mat; do each_file "r.$format" "$program" simulate "$config"; done
@@ -120,4 +170,10 @@ each_file new.toml "$program" new study
 each_folder digest "$synthetic" run "$scratch/synthetic.toml" --threads 1
 each_folder numbers "$program" identify "$config" --threads 1
 each_folder ranks "$program" rank "$config"
+each_kill digest "$synthetic" run "$scratch/synthetic.toml" --threads 1
+each_kill numbers "$program" identify "$config" --threads 1
+each_kill ranks "$program" rank "$config"
+each_kill diagnoses "$program" diagnose "$config" "$scratch/r.csv" --threads 1
+each_kill answers "$program" blind "$blind" --threads 1
+each_kill answers "$program" blind "$blind" --threads 1 --worker 0/1
 echo "$total faults, every end whole or exit code 6"

@@ -122,7 +122,7 @@ std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set,
 /// equally likely, and each is stood for by its middle.
 std::vector<double> values_of(const ParamSpec& spec, const Timeline& timeline) {
   std::vector<double> values;
-  if (spec.kind == ParamKind::moment) {
+  if (spec.kind == ParamKind::moment && !timeline.intervals.empty()) {
     const double begin = timeline.intervals.front().t0, end = timeline.intervals.back().t1;
     for (std::size_t k = 0; k < Grid::capacity; ++k)
       values.push_back(begin + (static_cast<double>(k) + 0.5) / Grid::capacity * (end - begin));
