@@ -25,6 +25,13 @@ std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& whiteness);
 std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
                                                 const search::Fitted& fit, double alpha);
 
+/// Such parameters without which nothing significant is missing: where their priors are as wide as
+/// the data take them from their means. Empty if there are none, or something is missing beside
+/// them. fit: of the nominal model.
+std::optional<remark::BeyondPrior> priors_at_fault(const FilterSpec& nominal,
+                                                   const MeasuredTest& test, const BatchResult& fit,
+                                                   const search::SearchOptions& options);
+
 /// Terms of a fitted model, a cause among them, that remember another path than that of the fit.
 std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit, const Timeline& timeline);
 

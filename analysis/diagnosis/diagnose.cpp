@@ -151,7 +151,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   search::Fitted examined = plain ? search::examine(nominal_filter, test, fitted.fit, *plain)
                                   : search::examine(nominal_filter, test, fitted.fit);
   stages.begin("search", 0.5);
-  const search::Search found = search::search(std::move(examined), test, options.search);
+  search::Search found = search::search(std::move(examined), test, options.search);
+  const search::Posterior posterior = search::posterior_of(found);
+  search::give_settings_room(found, test);
   const search::Fitted& nominal = found.nominal;
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
 
@@ -159,7 +161,6 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
   const auto member_gains = best && found.significant ? judge_members(nominal, test, *best, found)
                                                       : std::vector<double>{};
-  const search::Posterior posterior = search::posterior_of(found);
   const Judged judged =
       judge(nominal, found, posterior, d.fit.held_out, member_gains, options.named_by);
 
@@ -175,7 +176,15 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   Located place =
       located(nominal, found, judged, causes.causes, test.timeline, covariates, options.signals);
 
-  if (judged.verdict == Verdict::unexplained && options.proposing != Proposing::left_out) {
+  // A cause moves parameters: they are looked at with it in the model.
+  const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
+  auto beyond = beyond_prior(nominal_filter, in_the_model, options.search.alpha);
+  if (!best && found.significant)
+    if (auto at_fault = priors_at_fault(nominal_filter, test, nominal.fit, options.search))
+      beyond = std::move(at_fault);
+
+  if (judged.verdict == Verdict::unexplained && !(beyond && beyond->explains) &&
+      options.proposing != Proposing::left_out) {
     stages.begin("forms", 0.0);
     d.proposal = proposal::propose(found, noise_without_effect(nominal, found), test,
                                    options.search.alpha, {options.folds, recording_ends, {}});
@@ -217,9 +226,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
-  // A cause moves parameters: they are looked at with it in the model.
-  const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
-  append(d.remarks, beyond_prior(nominal_filter, in_the_model, options.search.alpha));
+  append(d.remarks, std::move(beyond));
   append(d.remarks, memory_off(in_the_model, test.timeline));
   append(d.remarks, equation_against_other(d));
   return d;

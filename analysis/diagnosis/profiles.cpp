@@ -30,6 +30,12 @@ Prior counted_prior(const search::Refit& model, const search::CauseParameter& p)
   return p.profiled ? fixed(0.0) : model.filter.believed(p.param);
 }
 
+/// A setting, such as a time constant or a moment, keeps its sign: what would lie beyond zero lies
+/// half way there from `near`.
+double of_its_sign(std::size_t param, double value, double near) {
+  return TermLibrary::specs[param].continuous() && value * near <= 0.0 ? 0.5 * near : value;
+}
+
 /// The value that was found, and those at which other fits of the same causes ended, in other
 /// valleys of a setting, each with 1.5 and 3 of its sigmas to either side; SI.
 std::vector<double> held_values(const search::Search& found, const search::Refit& model,
@@ -37,8 +43,11 @@ std::vector<double> held_values(const search::Search& found, const search::Refit
   const double unit = TermLibrary::specs[p.param].unit.to_si;
   std::vector<double> values;
   const auto hold_about = [&](double value, double sigma) {
-    for (const double sigmas : {-3.0, -1.5, 0.0, 1.5, 3.0})
-      values.push_back(value + sigmas * sigma);
+    values.push_back(value);
+    for (const double side : {-1.0, 1.0}) {
+      const double near = of_its_sign(p.param, value + side * 1.5 * sigma, value);
+      values.insert(values.end(), {near, of_its_sign(p.param, value + side * 3.0 * sigma, near)});
+    }
   };
   hold_about(p.value * unit, p.sigma * unit);
   if (p.profiled)
@@ -55,12 +64,14 @@ std::vector<double> held_values(const search::Search& found, const search::Refit
   return values;
 }
 
-/// Where refits are wanted next, SI. A setting, such as a time constant, keeps its sign.
+/// Where refits are wanted next, SI.
 std::vector<double> next_values(const Profile& p, double outward) {
-  const ParamSpec& spec = TermLibrary::specs[p.param];
   std::vector<double> values = wanted_points(p, outward);
-  if (spec.continuous()) std::erase_if(values, [&](double v) { return v * p.value <= 0.0; });
-  for (double& v : values) v *= spec.unit.to_si;
+  const double nearest_zero = std::ranges::min(p.points, {}, [](const Profile::Point& at) {
+                                return std::abs(at.value);
+                              }).value;
+  for (double& v : values)
+    v = of_its_sign(p.param, v, nearest_zero) * TermLibrary::specs[p.param].unit.to_si;
   return values;
 }
 

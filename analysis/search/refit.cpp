@@ -103,6 +103,46 @@ std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, cons
   return room;
 }
 
+/// A setting beyond the ends of the grid on which it was looked for, as a fit has it. Moments have
+/// no grid of the library's.
+bool beyond_grid(const inference::Candidate& c, std::size_t param, double value) {
+  if (TermLibrary::specs[param].kind != ParamKind::nonlinear) return false;
+  const auto on_one_side = [&](bool above) {
+    return std::ranges::all_of(c.variants, [&](const inference::Variant& v) {
+      const auto at = std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first);
+      return above ? value > at->second : value < at->second;
+    });
+  };
+  return on_one_side(true) || on_one_side(false);
+}
+
+/// The filter with each setting beyond its grid believed where the fit has it, give or take as much
+/// as it is itself. Nothing where none is, nor beside lambda, which is all but held.
+std::optional<FilterSpec> with_room_for_settings(const inference::CandidateSet& set,
+                                                 const Refit& r) {
+  std::optional<FilterSpec> room;
+  for (const Choice& choice : r.choices) {
+    const inference::Candidate& c = set.candidates[choice.candidate];
+    if (c.term == closure_term) return std::nullopt;
+    for (const auto& [i, grid_point] : c.variants[choice.variant].settings) {
+      const ParameterEstimate* p = r.after.fit.estimate.find(i);
+      if (!p || p->value * grid_point <= 0.0 || !beyond_grid(c, i, p->value)) continue;
+      if (!room) room = r.filter;
+      room->priors[i] = normal(p->value, std::abs(p->value));
+    }
+  }
+  return room;
+}
+
+/// Whether settings are where the fit before had them.
+bool settings_stay(const FilterSpec& room, const BatchResult& fit) {
+  constexpr double moved = 0.1;  // sigmas
+  return std::ranges::all_of(fit.estimate.parameters, [&](const ParameterEstimate& p) {
+    return TermLibrary::specs[p.param].kind != ParamKind::nonlinear ||
+           std::abs(p.value - room.priors[p.param].mean()) <= moved * p.sigma;
+  });
+}
+
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
 bool is_another_equation(Coupling nominal, const BatchResult& fit) {
   const ParameterEstimate* p = fit.estimate.find(closure_param);
@@ -203,6 +243,30 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   as_found.as_found = true;
   judge(as_found, causes, beside);
   return better(as_found, out) ? as_found : out;
+}
+
+void give_settings_room(Refit& r, const Fitted& nominal, const MeasuredTest& test,
+                        const ChanceThresholds& thresholds, NoiseKinds kinds) {
+  constexpr int passes = 8;  // a prior holds back what is far from it: each gives more room
+  auto room = with_room_for_settings(nominal.set, r);
+  if (!room) return;
+  for (int pass = 0; pass < passes; ++pass) {
+    const BatchResult fit =
+        fit_batch_from(*room, test, theta_of(*room, r.after.fit), r.after.fit.psi0_l);
+    Refit roomy = scored(r.choices, *room, fit, {nominal, test, thresholds, kinds});
+    roomy.as_found = r.as_found;
+    roomy.nameable = r.nameable;
+    roomy.sign_agrees = r.sign_agrees;
+    roomy.log_bayes = r.log_bayes;
+    if (r.after.unknown) roomy.after.unknown = roomy.after.strongest_inputs();
+    roomy.after.forget_signatures();
+    auto more = with_room_for_settings(nominal.set, roomy);
+    if (!more) return;  // it went back into the grid, where its prior holds
+    const bool settled = settings_stay(*room, fit);
+    r = std::move(roomy);
+    if (settled) return;
+    room = std::move(more);
+  }
 }
 
 std::vector<Refit> refit_all(const Fitted& nominal, const MeasuredTest& test,

@@ -35,6 +35,13 @@ NoiseKinds noise_beside(const Fitted& nominal);
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
 
+/// A setting that a fit took beyond the library's grid is held back by its prior, which stands for
+/// the distance of grid points: the fit is made again with one as wide as the setting itself. What
+/// the test says of it is stated then, and of all that goes with it; how probable the causes are
+/// stays as the library's settings make it.
+void give_settings_room(Refit& r, const Fitted& nominal, const MeasuredTest& test,
+                        const ChanceThresholds& thresholds, NoiseKinds kinds);
+
 /// Each explanation fitted, spread over threads.
 std::vector<Refit> refit_all(const Fitted& nominal, const MeasuredTest& test,
                              const std::vector<Explanation>& all,

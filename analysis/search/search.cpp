@@ -239,6 +239,11 @@ Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& o
 
 }  // namespace
 
+void give_settings_room(Search& s, const MeasuredTest& test) {
+  for (Refit& r : s.sets)
+    give_settings_room(r, s.nominal, test, s.thresholds, noise_beside(s.nominal));
+}
+
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out = searched(std::move(nominal), test, options);
   if (out.sets.empty()) return out;

@@ -26,4 +26,8 @@ struct Search : Detection, CredibleSet {
 /// outside the library is credible by itself (0.95; posterior.hpp) all sets are outweighed.
 Search search(Fitted nominal, const MeasuredTest& test, const SearchOptions& options);
 
+/// The sets with what the test says of their settings, beyond the library's grids too (refit.hpp).
+/// Once the posterior has been worked out, which is that of the library's settings.
+void give_settings_room(Search& s, const MeasuredTest& test);
+
 }  // namespace drift::search

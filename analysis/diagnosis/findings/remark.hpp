@@ -90,6 +90,8 @@ struct BeyondPrior {
   std::size_t of = 0;                 ///< parameters with a prior
   /// What the scale factors of the accelerometers among them have in common.
   std::optional<identification::CommonScale> scales;
+  /// Something stands out, and with priors as wide as these parameters lie from theirs nothing.
+  bool explains = false;
   const Parameter& farthest() const {
     return *std::ranges::max_element(parameters, {}, &Parameter::sigmas);
   }

@@ -13,11 +13,28 @@
 namespace drift::report {
 using namespace diagnosis;
 
-std::string beyond_prior_text(const remark::BeyondPrior& r) {
-  constexpr std::size_t most = 6;
+namespace {
+
+constexpr std::size_t most_keys = 6;
+
+std::vector<std::string> keys_of(const remark::BeyondPrior& r) {
   std::vector<std::string> keys;
   for (const remark::BeyondPrior::Parameter& p : r.parameters)
     keys.push_back(parameter_key(p.estimate.param));
+  return keys;
+}
+
+}  // namespace
+
+std::string priors_at_fault(const Diagnosis& d) {
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  if (beyond == nullptr || !beyond->explains) return "";
+  return fmt::format("the prior{} of {}", beyond->parameters.size() > 1 ? "s" : "",
+                     listed_up_to(keys_of(*beyond), most_keys));
+}
+
+std::string beyond_prior_text(const remark::BeyondPrior& r) {
+  const std::vector<std::string> keys = keys_of(r);
   const remark::BeyondPrior::Parameter& far = r.farthest();
   const ParameterEstimate& e = far.estimate;
   const double unit = unit_of(e.param);
@@ -34,7 +51,7 @@ std::string beyond_prior_text(const remark::BeyondPrior& r) {
              ? fmt::format(
                    "The fit takes {} up to {} ({}): the priors are wrong, or these parameters take "
                    "up something that the model lacks",
-                   listed_up_to(keys, most), where, chance)
+                   listed_up_to(keys, most_keys), where, chance)
              : fmt::format(
                    "The fit takes {} {} ({}): the prior is wrong, or {} takes up something that "
                    "the model lacks",

@@ -12,6 +12,10 @@ namespace drift::report {
 /// "The fit takes M_y 6.1 prior sigmas from its prior, ...: the prior is wrong, or ...".
 std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 
+/// "the prior of K0_x", where with wider ones nothing is missing; empty where something is, or
+/// nothing stands out.
+std::string priors_at_fault(const diagnosis::Diagnosis& diagnosis);
+
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
 /// The same where the test was diagnosed at that latitude (Diagnosis::there).

@@ -12,9 +12,6 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/identify/clock_words.hpp"
-#include "analysis/report/identify/latitude_words.hpp"
-#include "analysis/report/identify/turned_words.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
 
@@ -22,46 +19,6 @@ namespace drift::report {
 namespace {
 
 using namespace diagnosis;
-
-/// Whether the latitude is all that is wrong.
-bool nothing_else(const identification::LatitudeDoubt& doubt) {
-  return doubt.alone() && !doubt.beside_causes;
-}
-
-std::string verdict_word(const Diagnosis& d) {
-  if (d.heading_doubt)
-    return d.heading_doubt->alone() ? "Wrong headings: correct the study first."
-                                    : "Wrong headings and more: correct the study first.";
-  if (d.site_doubt && d.site_doubt->clock) return "Wrong times: correct the recording first.";
-  if (d.site_doubt)
-    return fmt::format("Wrong {}{}: correct the study first.", wrong_text(*d.site_doubt),
-                       nothing_else(*d.site_doubt) ? "" : " and more");
-  switch (d.verdict) {
-    case Verdict::consistent:
-      return "Consistent: nothing significant is missing.";
-    case Verdict::named:
-      return "Named: the data single out what is missing.";
-    case Verdict::ambiguous:
-      return "Ambiguous: something is missing, and several causes remain possible.";
-    case Verdict::unexplained:
-      break;
-  }
-  return "Unexplained: something is missing that no candidate fits.";
-}
-
-/// A study that is not of the recording has a verdict of its own: what is said of causes does not
-/// hold. (The JSON has its four words, `latitude` and `heading`.)
-std::string headline(const Diagnosis& d) {
-  const auto wrong = [](std::string_view what, bool alone) {
-    return fmt::format("wrong {}{}", what, alone ? "" : " and more");
-  };
-  const std::string word = d.heading_doubt ? wrong("headings", d.heading_doubt->alone())
-                           : d.site_doubt && d.site_doubt->clock ? wrong("times", true)
-                           : d.site_doubt
-                               ? wrong(wrong_text(*d.site_doubt), nothing_else(*d.site_doubt))
-                               : std::string(text(d.verdict));
-  return fmt::format("Verdict {}: {}", word, sentence(d));
-}
 
 std::string model_text(const FilterSpec& f) {
   return fmt::format("{}, terms {}", key_of(f.coupling), fmt::join(terms_text(f.active), ", "));
@@ -177,78 +134,6 @@ Section advice(const Diagnosis& d) {
 
 std::string to_text(const Diagnosis& d) {
   return text_of(sections_of(d, diagnosis_sections));
-}
-
-/// What is left beside the effects that come nearest, if anything is.
-std::optional<diagnosis::remark::StrongestLeft> strongest_left(const Diagnosis& d) {
-  for (const diagnosis::Remark& r : d.remarks)
-    if (const auto* left = std::get_if<diagnosis::remark::StrongestLeft>(&r);
-        left && !left->labels.empty())
-      return *left;
-  return std::nullopt;
-}
-
-InBrief diagnosis_in_brief(const Diagnosis& d) {
-  InBrief brief;
-  brief.verdict = headline(d);
-  brief.tone = d.wrong_study()                    ? Tone::bad
-               : d.verdict == Verdict::consistent ? Tone::good
-               : d.verdict == Verdict::named      ? Tone::doubtful
-                                                  : Tone::bad;
-  const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
-    if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
-  };
-  if (d.verdict != Verdict::consistent && !d.wrong_study()) {
-    if (d.proposal)
-      add(Weight::note, "Proposal", form_sentence(*d.proposal));
-    else if (const auto* period = diagnosis::remark_in<diagnosis::remark::PeriodExplains>(d);
-             period && !period->beside_cause)
-      add(Weight::note, "Period", in_words(diagnosis::Remark(*period), instrument_of(d)));
-    add(Weight::note, "Where", where_sentence(d.where));
-    add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
-  }
-  bool off_zero = false;
-  for (const diagnosis::Remark& r : d.remarks)
-    if (const auto* gimbal = std::get_if<diagnosis::remark::GimbalOffZero>(&r)) {
-      add(Weight::wrong, "Gimbals", gimbal->text + ".");
-      off_zero = true;
-    }
-  // Of what is not explained it is no news that parameters take it up.
-  const Weight doubt = labels_are_late(d)                  ? Weight::wrong
-                       : d.verdict == Verdict::unexplained ? Weight::note
-                                                           : Weight::doubtful;
-  if (!d.wrong_study())
-    for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
-  if (labels_are_late(d))
-    brief.next = "Next: correct the numbers of the positions in the recording and diagnose again.";
-  else if (d.heading_doubt)
-    brief.next = corrected_text(*d.heading_doubt, "diagnose");
-  else if (d.site_doubt && d.site_doubt->clock)
-    brief.next = clock_next(*d.site_doubt->clock, "diagnose");
-  else if (d.site_doubt)
-    brief.next = latitude_next(*d.site_doubt, "diagnose");
-  else if (off_zero && d.verdict != Verdict::consistent)
-    brief.next = "Next: correct the zero, or its offset, and diagnose again.";
-  else if (!d.advice.empty())
-    brief.next = "Next: " + advice_in_brief(d.advice.front());
-  else if (d.verdict == Verdict::named && d.has_patch)
-    brief.next = "Next: identify with patched.toml, the study with the cause in its model.";
-  else if (const auto other = facts(d.nominal.coupling).other;
-           other &&
-           std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
-    brief.next = fmt::format(
-        "Next: diagnose again under the other equation, and see what is missing: --set {}.",
-        shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
-  else if (d.proposal)
-    brief.next =
-        "Next: look for what acts there and then. With the [[term]] of proposal.toml in the study, "
-        "another recording tells whether it comes again.";
-  else if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
-    brief.next = fmt::format(
-        "Next: more than one effect seems to be missing. Diagnose again with the first in the "
-        "model: --set \"filter.{}.terms+={}\".",
-        d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
-  return brief;
 }
 
 Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {

@@ -14,6 +14,13 @@ DRIFT_SECTIONS(diagnosis::Diagnosis, diagnosis_sections, (verdict, evidence),
                (likeness, details), (rivals, details), (fit, evidence), (moved, details),
                (whiteness, details), (normality, details), (noise, details), (advice, how_sure));
 
+/// The verdict in a few words, for a page's subtitle.
+std::string verdict_word(const diagnosis::Diagnosis& diagnosis);
+
+/// "Verdict named: ...". A study that is not of the recording has a verdict of its own: what is
+/// said of causes does not hold. (The JSON has its four words, `latitude` and `heading`.)
+std::string headline(const diagnosis::Diagnosis& diagnosis);
+
 /// Causes are told from a model without, before and after; of a consistent verdict on the page
 /// alone.
 inline On shown_of(const diagnosis::Diagnosis& d) {

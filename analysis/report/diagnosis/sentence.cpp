@@ -162,6 +162,12 @@ std::string unknown_text(const Diagnosis& d) {
 std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
+  if (const std::string priors = priors_at_fault(d); !priors.empty())
+    return fmt::format("{} {}: with more room there nothing is missing.",
+                       d.verdict != Verdict::consistent
+                           ? fmt::format("{} ({}), or it is", something_missing, false_alarm)
+                           : fmt::format("{} but for", agrees),
+                       priors);
   switch (d.verdict) {
     case Verdict::consistent:
       return fmt::format("{}; no missing physics is found (noise alone {}).{}{}", agrees,
@@ -200,8 +206,7 @@ std::string nearest_text(const NearestKnown& near, Instrument instrument) {
       fmt::join(words, " together with "), near.chi2_per_dof_before, near.chi2_per_dof_after);
 }
 
-/// What a plan has and no recording holds; in one sentence with the verdict, which a short answer
-/// must not leave off.
+/// What a plan has and no recording holds; with the verdict, which no short answer leaves off.
 std::string absent_text(const std::vector<int>& positions) {
   if (positions.empty()) return "";
   return fmt::format("Of the plan, {} {} not recorded, what follows is of the others alone: ",

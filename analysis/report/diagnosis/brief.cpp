@@ -1,0 +1,133 @@
+#include <algorithm>
+
+#include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
+#include "analysis/report/diagnosis/form_words.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
+#include "analysis/report/identify/turned_words.hpp"
+
+namespace drift::report {
+
+using namespace diagnosis;
+
+namespace {
+
+/// Whether the latitude is all that is wrong.
+bool nothing_else(const identification::LatitudeDoubt& doubt) {
+  return doubt.alone() && !doubt.beside_causes;
+}
+
+/// What is left beside the effects that come nearest, if anything is.
+std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
+  for (const Remark& r : d.remarks)
+    if (const auto* left = std::get_if<remark::StrongestLeft>(&r); left && !left->labels.empty())
+      return *left;
+  return std::nullopt;
+}
+
+/// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
+std::string next_step(const Diagnosis& d, bool off_zero) {
+  if (labels_are_late(d))
+    return "Next: correct the numbers of the positions in the recording and diagnose again.";
+  if (d.heading_doubt) return corrected_text(*d.heading_doubt, "diagnose");
+  if (d.site_doubt && d.site_doubt->clock) return clock_next(*d.site_doubt->clock, "diagnose");
+  if (d.site_doubt) return latitude_next(*d.site_doubt, "diagnose");
+  if (const std::string priors = priors_at_fault(d); !priors.empty())
+    return fmt::format(
+        "Next: correct {}, or widen it to hold what the fit takes, and diagnose again.", priors);
+  if (off_zero && d.verdict != Verdict::consistent)
+    return "Next: correct the zero, or its offset, and diagnose again.";
+  if (!d.advice.empty()) return "Next: " + advice_in_brief(d.advice.front());
+  if (d.verdict == Verdict::named && d.has_patch)
+    return "Next: identify with patched.toml, the study with the cause in its model.";
+  if (const auto other = facts(d.nominal.coupling).other;
+      other && std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
+    return fmt::format(
+        "Next: diagnose again under the other equation, and see what is missing: --set {}.",
+        shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
+  if (d.proposal)
+    return "Next: look for what acts there and then. With the [[term]] of proposal.toml in the "
+           "study, another recording tells whether it comes again.";
+  if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
+    return fmt::format(
+        "Next: more than one effect seems to be missing. Diagnose again with the first in the "
+        "model: --set \"filter.{}.terms+={}\".",
+        d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
+  return "";
+}
+
+}  // namespace
+
+std::string verdict_word(const Diagnosis& d) {
+  if (d.heading_doubt)
+    return d.heading_doubt->alone() ? "Wrong headings: correct the study first."
+                                    : "Wrong headings and more: correct the study first.";
+  if (d.site_doubt && d.site_doubt->clock) return "Wrong times: correct the recording first.";
+  if (d.site_doubt)
+    return fmt::format("Wrong {}{}: correct the study first.", wrong_text(*d.site_doubt),
+                       nothing_else(*d.site_doubt) ? "" : " and more");
+  switch (d.verdict) {
+    case Verdict::consistent:
+      return "Consistent: nothing significant is missing.";
+    case Verdict::named:
+      return "Named: the data single out what is missing.";
+    case Verdict::ambiguous:
+      return "Ambiguous: something is missing, and several causes remain possible.";
+    case Verdict::unexplained:
+      break;
+  }
+  return "Unexplained: something is missing that no candidate fits.";
+}
+
+std::string headline(const Diagnosis& d) {
+  const auto wrong = [](std::string_view what, bool alone) {
+    return fmt::format("wrong {}{}", what, alone ? "" : " and more");
+  };
+  const std::string word = d.heading_doubt ? wrong("headings", d.heading_doubt->alone())
+                           : d.site_doubt && d.site_doubt->clock ? wrong("times", true)
+                           : d.site_doubt
+                               ? wrong(wrong_text(*d.site_doubt), nothing_else(*d.site_doubt))
+                               : std::string(text(d.verdict));
+  return fmt::format("Verdict {}: {}", word, sentence(d));
+}
+
+InBrief diagnosis_in_brief(const Diagnosis& d) {
+  InBrief brief;
+  brief.verdict = headline(d);
+  brief.tone = d.wrong_study()                    ? Tone::bad
+               : d.verdict == Verdict::consistent ? Tone::good
+               : d.verdict == Verdict::named      ? Tone::doubtful
+                                                  : Tone::bad;
+  const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
+    if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
+  };
+  if (d.verdict != Verdict::consistent && !d.wrong_study()) {
+    if (d.proposal)
+      add(Weight::note, "Proposal", form_sentence(*d.proposal));
+    else if (const auto* period = remark_in<remark::PeriodExplains>(d);
+             period && !period->beside_cause)
+      add(Weight::note, "Period", in_words(Remark(*period), instrument_of(d)));
+    add(Weight::note, "Where", where_sentence(d.where));
+    add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
+  }
+  bool off_zero = false;
+  for (const Remark& r : d.remarks)
+    if (const auto* gimbal = std::get_if<remark::GimbalOffZero>(&r)) {
+      add(Weight::wrong, "Gimbals", gimbal->text + ".");
+      off_zero = true;
+    }
+  // Of what is not explained it is no news that parameters take it up, unless that explains it.
+  const Weight doubt = labels_are_late(d) || !priors_at_fault(d).empty() ? Weight::wrong
+                       : d.verdict == Verdict::unexplained               ? Weight::note
+                                                                         : Weight::doubtful;
+  if (!d.wrong_study())
+    for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
+  brief.next = next_step(d, off_zero);
+  return brief;
+}
+
+}  // namespace drift::report
