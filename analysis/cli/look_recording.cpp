@@ -182,9 +182,38 @@ ExitCode look_without_study(const std::string& path) {
   return ExitCode::ok;
 }
 
+/// By its name and, where a study might have such a one, by columns of numbers that are channels.
+bool evident_recording(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) return false;
+  if (is_binary_file(path)) return true;
+  if (!is_text_file(path)) return false;
+  try {
+    return std::ranges::any_of(guess_file(path).columns, [](const GuessedColumn& c) {
+      return !c.channel.empty() && c.numbers > c.texts;
+    });
+  } catch (const InputError&) {
+    return false;  // no columns: whoever reads it as a study says what is wrong
+  }
+}
+
+/// Two recordings, or a study file before the recording.
+void require_study_behind(const std::string& recording, const std::string& config) {
+  if (!evident_recording(config)) return;
+  const bool first_is_one = is_text_file(recording) || is_binary_file(recording);
+  throw InputError(
+      ExitCode::usage,
+      fmt::format("look: {} is a recording (expected one recording and, behind it, a study file "
+                  "to read it with). {}",
+                  config,
+                  first_is_one ? "Look at one recording at a time"
+                               : fmt::format("Name it first: driftscope look {} {}",
+                                             shell_word(config), shell_word(recording))));
+}
+
 /// Says what a file holds, with a study file or with none (config empty).
 ExitCode look(const StudyArguments& arguments, const std::string& recording) {
   if (arguments.config.empty()) return look_without_study(recording);
+  require_study_behind(recording, arguments.config);
   const mc::Study study = arguments.read();
   const auto card =
       show_recording(read_recording(recording, study.recording, study.kind, study.site.gravity),

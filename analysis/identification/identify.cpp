@@ -161,6 +161,11 @@ void doubt_study(const mc::Study& study, const std::vector<Recording>& recording
   }
 }
 
+/// How far chi-square over its degrees of freedom m, whose variance is 2/m, may be from 1.
+double furthest_off(const EstimateResult& result) {
+  return inference::FitLimits::misfit * std::sqrt(2.0 / static_cast<double>(result.measured));
+}
+
 }  // namespace
 
 const EstimateResult& judged(const FilterSpec& filter, const FilterRun& run) {
@@ -168,10 +173,23 @@ const EstimateResult& judged(const FilterSpec& filter, const FilterRun& run) {
 }
 
 bool misfit(const EstimateResult& result) {
-  const double m = static_cast<double>(result.measured);  // the variance of chi-square over m: 2/m
-  const double off = result.statistic_per_dof() - 1.0;
-  return result.measured > 0 && (result.noise_at_most ? off : std::abs(off)) >
-                                    inference::FitLimits::misfit * std::sqrt(2.0 / m);
+  return result.measured > 0 && result.statistic_per_dof() - 1.0 > furthest_off(result);
+}
+
+bool less_noise(const EstimateResult& result) {
+  return result.measured > 0 && !result.noise_at_most &&
+         1.0 - result.statistic_per_dof() > furthest_off(result);
+}
+
+double noise_of_declared(const FilterSpec& filter, const FilterRun& run) {
+  const EstimateResult& result = judged(filter, run);
+  double free = static_cast<double>(result.measured);
+  for (const ParameterEstimate& p : result.parameters)
+    free -= 1.0 - std::min(1.0, p.learning_ratio() * p.learning_ratio());
+  // The part of the priors in chi-square does not become less with the noise.
+  return !drift_varies(filter) && run.batch.data_chi2 > 0.0 && free >= 1.0
+             ? std::sqrt(run.batch.data_chi2 / free)
+             : std::sqrt(result.statistic_per_dof());
 }
 
 std::vector<const FilterRun*> Identification::runs_of(std::size_t filter) const {

@@ -89,8 +89,18 @@ struct Identification {
 /// model, the EKF.
 const EstimateResult& judged(const FilterSpec& filter, const FilterRun& run);
 
-/// Chi-square over its degrees of freedom is where no right model has it (FitLimits::misfit).
+/// Chi-square over its degrees of freedom is above where any right model has it
+/// (FitLimits::misfit).
 bool misfit(const EstimateResult& result);
+
+/// It is as far below 1, and the declared noise is no upper bound: the rows scatter less than it
+/// says. What was estimated stands, with sigmas that are too wide. (Rows that were joined scatter
+/// less, too, where their noise is not white.)
+bool less_noise(const EstimateResult& result);
+
+/// How large the noise is over the declared one, by what judged() leaves of all rows together. Of
+/// a batch fit by the data alone, less what the parameters took of them.
+double noise_of_declared(const FilterSpec& filter, const FilterRun& run);
 
 /// Called as runs are completed, from any thread: done, total.
 using Progress = std::function<void(std::size_t, std::size_t)>;

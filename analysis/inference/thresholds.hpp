@@ -272,8 +272,9 @@ struct AdviceLimits {
 
 /// What is said of a fit as such.
 struct FitLimits {
-  /// [sigma] of chi-square over its degrees of freedom beyond which a fit is a misfit: 6e-7 of the
-  /// right models, both sides. Test: FitWords.TheWordOfAFit...
+  /// [sigma] of chi-square over its degrees of freedom beyond which a fit is a misfit, and below
+  /// which it has less noise than declared: 6e-7 of the right models, both sides. Tests:
+  /// FitWords.TheWordOfAFit..., FitWords.AFitWithLessNoise...
   static constexpr double misfit = 5.0;
   /// [prior sigma] from a prior's mean, two-sided: 6e-7 for each parameter that is of its prior,
   /// 1e-4 for any of 200. An effect beyond it is also fitted as it is found (size_prior.hpp).

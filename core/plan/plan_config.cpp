@@ -20,9 +20,24 @@ constexpr Named<RecordingKind> kinds[] = {{"platform", RecordingKind::platform},
 constexpr Option dwell_option{"dwell", unit::minute, 1e-3, 1e5, "length of a dwell"};
 constexpr Option sample_option{"sample", unit::s, 1e-3, 1e5, "sample interval"};
 
+constexpr double most_samples = 1e7;  ///< of a dwell: beyond memory
+
+/// The dwell of so many samples, or of the nearest number of them that a dwell may have: "99960
+/// min".
+std::string dwell_near(double count, double sample) {
+  constexpr double rounding = 1e-9;  // of a number of samples
+  const auto samples = [&](double dwell) { return dwell * dwell_option.unit.to_si / sample; };
+  const double least = std::max(1.0, std::ceil(samples(dwell_option.min) * (1.0 - rounding))),
+               most = std::floor(samples(dwell_option.max) * (1.0 + rounding)),
+               dwell = sample * std::clamp(count, least, std::min(most, most_samples)),
+               minutes = std::round(dwell / unit::minute.to_si);
+  return std::abs(dwell - minutes * unit::minute.to_si) <= rounding * dwell
+             ? fmt::format("{:.12g} min", minutes)
+             : fmt::format("{:.12g} s", dwell);
+}
+
 /// A dwell is a whole number of sample intervals, at least one and not beyond memory.
 void check_samples(Section& section, double dwell, double sample) {
-  constexpr double most = 1e7;
   const config::Node* node = section.has("dwell") ? section.take("dwell") : section.take("sample");
   const config::Place at = node == nullptr ? section.at() : node->at;
   const double count = std::round(dwell / sample);
@@ -31,13 +46,13 @@ void check_samples(Section& section, double dwell, double sample) {
         at,
         fmt::format(
             "'{}' = {:.12g} s is {:.6g} samples of {:.12g} s (expected a whole number, at least "
-            "one). Choose a dwell such as \"{:.12g} s\"",
-            section.full("dwell"), dwell, dwell / sample, sample, sample * std::max(1.0, count)));
-  else if (!(count <= most))
+            "one). Choose a dwell such as \"{}\"",
+            section.full("dwell"), dwell, dwell / sample, sample, dwell_near(count, sample)));
+  else if (!(count <= most_samples))
     section.report().error(
         at, fmt::format("'{}' = {:.12g} s is {:.0f} samples of {:.12g} s (expected at most "
                         "{:.0f}). Choose a longer sample interval",
-                        section.full("dwell"), dwell, count, sample, most));
+                        section.full("dwell"), dwell, count, sample, most_samples));
 }
 
 /// Where a dwell is held against its samples: what [plan] has by default may be nobody's, and what

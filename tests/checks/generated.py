@@ -17,8 +17,9 @@ EFFECTS = """# Effects
 
 Every term of the library, as `driftscope terms KEY` prints it; written by `tests/checks/generated.py`. Sections of
 physics.md are those of [Physics](physics.md). w_l: drift of a gyro, w_md: its torquing, w_cp: rate of the platform against the
-case, f: specific force, delta: an offset of the attitude; I, O, S: input, output and spin axis of a gyro. A study brings
-others: [own terms](own_terms.md).
+case, f: specific force, delta: an offset of the attitude; I, O, S: input, output and spin axis of a gyro; dT: deviation of the
+temperature from its mean, of one recording or of all that are given together ([what that makes of several simulated
+tests](recording.md#several-recordings)). A study brings others: [own terms](own_terms.md).
 """
 STUDY = """# The study file
 

@@ -81,6 +81,18 @@ std::string headings_text(const identification::HeadingDoubt& doubt) {
       p_text(doubt.chance));
 }
 
+/// What follows "Fits, with less noise than declared:".
+std::string smaller_text(const Judgement& j, const identification::Identification& id) {
+  std::vector<std::string> others = j.bad;
+  others.insert(others.end(), j.leave_more.begin(), j.leave_more.end());
+  return fmt::format(
+      "the residuals are about {}{}. The estimates stand, their sigmas are too wide. {}.",
+      listed(j.less_noise, "and"), others.empty() ? "" : "; " + listed(others, "and"),
+      id.simulated ? "The noise is smaller than declared"
+                   : "The noise is smaller than declared, or rows were joined whose noise is not "
+                     "white");
+}
+
 std::string verdict_text(const Judgement& j, const identification::Identification& id) {
   std::vector<std::string> limits;
   for (const std::string& limit : {absent_text(id), absent_positions_text(id.absent_positions)})
@@ -116,6 +128,9 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   if (j.good.empty())
     return fmt::format("{} {}. {} estimates are not to be trusted.", judged_as("Misfit"),
                        listed(j.bad, "and"), j.bad.size() == 1 ? "Its" : "Their");
+  if (!j.less_noise.empty())
+    return fmt::format("{} {}", judged_as("Fits, with less noise than declared"),
+                       smaller_text(j, id));
   if (!j.bad.empty())
     return fmt::format("{} the residuals are what it expects; {}.",
                        judged_as("Believe " + listed(j.good, "and")), listed(j.bad, "and"));
@@ -134,8 +149,8 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(j, id);
-  bool doubtful = j.wrong || !id.absent.empty() || !id.absent_positions.empty() ||
-                  !id.off_zero.empty() || !id.spikes.empty();
+  bool doubtful = j.wrong || !j.less_noise.empty() || !id.absent.empty() ||
+                  !id.absent_positions.empty() || !id.off_zero.empty() || !id.spikes.empty();
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
   const std::string labels = late_labels_text(id.spikes);
   if (!labels.empty())

@@ -27,7 +27,7 @@ Cell statistic_cell(const EstimateResult& result) {
   if (result.measured == 0) return "-";
   const double per_dof = result.statistic_per_dof();
   const bool fits = stats::chi_square_band(static_cast<double>(result.measured)).holds(per_dof);
-  return digits(per_dof, 4, fits ? Tone::good : Tone::bad);
+  return digits(per_dof, 4, fits ? Tone::good : per_dof < 1.0 ? Tone::doubtful : Tone::bad);
 }
 
 std::string band_text(const EstimateResult& result) {
@@ -150,6 +150,7 @@ Table estimate_table(const FilterView& v, On where, std::size_t starts) {
 
 Cell fit_cell(const EstimateResult& result) {
   if (misfit(result)) return {"misfit", Tone::bad};
+  if (less_noise(result)) return {"less noise", Tone::doubtful};
   if (result.measured == 0 || stats::chi_square_band(static_cast<double>(result.measured))
                                   .holds(result.statistic_per_dof()))
     return {"ok"};
@@ -181,11 +182,13 @@ Section filter_model(const FilterView& v) {
 /// Of every start: status, and EKF NIS per degree of freedom and batch cost per degree of freedom
 /// with the 95 % band a right model would be in.
 Section fits(const FilterView& v) {
-  Table table(fmt::format("Fit of filter {}", v.spec().name),
-              "<start | <EKF | NIS/m | 95 % band | <batch | cost/m | 95 % band | iterations",
-              "NIS/m and cost/m: chi-square over its m degrees of freedom, 1 if model, noise and "
-              "priors are right; 95 % band by Wilson-Hilferty, which one right model in 20 is "
-              "outside; misfit: by more than 5 sigma, one in 1.7 million.");
+  Table table(
+      fmt::format("Fit of filter {}", v.spec().name),
+      "<start | <EKF | NIS/m | 95 % band | <batch | cost/m | 95 % band | iterations",
+      "NIS/m and cost/m: chi-square over its m degrees of freedom, 1 if model, noise and "
+      "priors are right; 95 % band by Wilson-Hilferty, which one right model in 20 is "
+      "outside; misfit: above 1 by more than 5 sigma; less noise: below 1 by as much (either: "
+      "one in 1.7 million), so that the estimates stand and their sigmas are too wide.");
   for (const identification::FilterRun* run : v.id.runs_of(v.summary.filter)) {
     const EstimateResult& batch = run->batch.estimate;
     table.add({run->start + 1, status_cell(run->ekf), statistic_cell(run->ekf), band_text(run->ekf),

@@ -49,6 +49,14 @@ Json estimator(const EstimateResult& result) {
   return out;
 }
 
+/// What the run that counts is as a fit: "ok", "outside_band", "less_noise", "misfit", or why not.
+std::string fit_key(const EstimateResult& result) {
+  if (result.status != EstimateStatus::ok) return std::string(status_key(result.status));
+  if (misfit(result)) return "misfit";
+  if (less_noise(result)) return "less_noise";
+  return fit_cell(result).tone == Tone::plain ? "ok" : "outside_band";
+}
+
 Json run_json(const identification::FilterRun& run) {
   Json out;
   out["start"] = run.start + 1;
@@ -122,6 +130,11 @@ Json identification_document(const mc::Study& study, const identification::Ident
     for (const identification::FilterRun* run : id.runs_of(summary.filter))
       starts.push_back(run_json(*run));
     f["counted_start"] = id.counted(summary).start + 1;
+    const EstimateResult& counted = judged({study, id, summary});
+    f["fit"] = fit_key(counted);
+    f["noise_of_declared"] =  // 1 sigma of all rows; null where it is not less than declared
+        less_noise(counted) ? Json(identification::noise_of_declared(spec, id.counted(summary)))
+                            : Json(nullptr);
     f["agreeing_starts"] = summary.agreeing_starts;  // with it and itself; 0: none converged
     f["beyond_prior"] = beyond_prior({study, id, summary});
     f["heading_doubt"] =

@@ -5,27 +5,41 @@
 namespace drift::report {
 namespace {
 
+std::string chi2_text(const FilterView& v) {
+  return "chi-square per degree of freedom " + number_text(judged(v).statistic_per_dof());
+}
+
 std::string misfit_text(const FilterView& v) {
-  const EstimateResult& result = judged(v);
-  return result.status != EstimateStatus::ok
+  return judged(v).status != EstimateStatus::ok
              ? "did not converge"
-             : fmt::format("misfits (chi-square per degree of freedom {}, 1 expected)",
-                           number_text(result.statistic_per_dof()));
+             : fmt::format("misfits ({}, 1 expected)", chi2_text(v));
+}
+
+/// "0.49 times what [readout] declares from filter a (chi-square ...)"
+std::string less_noise_text(const FilterView& v) {
+  return fmt::format(
+      "{} times what [readout] declares from filter {} ({}, 1 expected)",
+      number_text(identification::noise_of_declared(v.spec(), v.id.counted(v.summary))),
+      v.spec().name, chi2_text(v));
 }
 
 }  // namespace
 
 std::string outside_text(const FilterView& v) {
   const EstimateResult& result = judged(v);
-  if (!believed(v) || fit_cell(result).tone == Tone::plain) return "";
+  if (!believed(v) || less_noise(result) || fit_cell(result).tone == Tone::plain) return "";
   const auto dof = static_cast<double>(result.measured);
+  const double per_dof = result.statistic_per_dof();
   const stats::Band band = stats::chi_square_band(dof);
+  // Whatever is missing makes chi-square larger, never smaller.
   return fmt::format(
       "Filter {}: chi-square per degree of freedom {:.3f} is outside the 95 % band of a right "
-      "model, {:.3f} to {:.3f} (so far by chance: {:.1g}): a small effect is missing, or noise and "
-      "priors are not what the study says.",
-      v.spec().name, result.statistic_per_dof(), band.low, band.high,
-      stats::chi_square_chance(result.statistic_per_dof(), dof));
+      "model, {:.3f} to {:.3f} (so far by chance: {:.1g}): {}.",
+      v.spec().name, per_dof, band.low, band.high, stats::chi_square_chance(per_dof, dof),
+      per_dof > 1.0 ? "a small effect is missing, or noise and priors are not what the study says"
+                    : "noise is less, or priors are narrower, than the study says, and sigmas are "
+                      "somewhat too "
+                      "wide");
 }
 
 Judgement judgement_of(const mc::Study& study, const identification::Identification& id) {
@@ -37,9 +51,16 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
       continue;
     }
     j.good.push_back(v.spec().name);
+    const bool less = less_noise(judged(v));
+    if (less)
+      j.less_noise.push_back(less_noise_text(v));
+    else
+      j.leave_more.push_back(
+          fmt::format("filter {} leaves more ({})", v.spec().name, chi2_text(v)));
     if (!outside_text(v).empty()) j.nearly.push_back(v.spec().name);
     if (s.filter == 0) {
       j.first_fits = true;
+      j.first_less_noise = less;
       j.first_far = far_from_prior(v);
     }
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
@@ -48,6 +69,7 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
       j.unlearned = j.unlearned || worth == Worth::prior_only || worth == Worth::sum_only;
     }
   }
+  if (j.less_noise.empty()) j.leave_more.clear();
   return j;
 }
 

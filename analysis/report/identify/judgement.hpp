@@ -10,10 +10,13 @@ namespace drift::report {
 struct Judgement {
   std::vector<std::string> good, bad;  ///< names; what is wrong with them
   std::vector<std::string> nearly;     ///< names of good ones that few right models fit as badly as
-  bool wrong = false;                  ///< a filter that fits has a parameter that is wrong
-  bool unlearned = false;              ///< a filter that fits learned nothing of one
-  bool first_fits = false;             ///< the first filter, which `diagnose` would examine
-  std::vector<std::string> first_far;  ///< its parameters far from their priors (far_from_prior())
+  std::vector<std::string> less_noise;  ///< good ones with less noise than declared, how much less
+  std::vector<std::string> leave_more;  ///< the other good ones where there are such
+  bool wrong = false;                   ///< a filter that fits has a parameter that is wrong
+  bool unlearned = false;               ///< a filter that fits learned nothing of one
+  bool first_fits = false;              ///< the first filter, which `diagnose` would examine
+  bool first_less_noise = false;        ///< it fits with less noise than declared
+  std::vector<std::string> first_far;   ///< its parameters far from their priors (far_from_prior())
 };
 Judgement judgement_of(const mc::Study& study, const identification::Identification& id);
 

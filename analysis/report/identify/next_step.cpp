@@ -48,6 +48,11 @@ std::string next_step(const mc::Study& study, const identification::Identificati
         "Next: driftscope diagnose {} {} says whether missing physics, or another drift equation, "
         "is behind {}.",
         study_words(study), recordings, listed_up_to(j.first_far, most));
+  if (j.first_less_noise)
+    return fmt::format(
+        "Next: driftscope diagnose {} {} says how large the noise of each instrument is: declare "
+        "that in [readout] and identify again.",
+        study_words(study), recordings);
   if (j.unlearned)
     return fmt::format(
         "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "

@@ -8,6 +8,7 @@
 
 namespace drift::report {
 
+using identification::less_noise;
 using identification::misfit;
 
 /// A filter and what it found.
@@ -107,7 +108,7 @@ inline std::vector<NamedDirection> unseen_directions(const FilterView& v) {
 }
 
 /// What a fit is worth by its chi-square alone: "ok" inside the 95 % band of a right model,
-/// "outside the band" beyond it, "misfit" where no right model is.
+/// "outside the band" beyond it, "misfit" above and "less noise" below where any right model is.
 Cell fit_cell(const EstimateResult& result);
 
 /// Keys of parameters that a filter takes further from their priors than these allow

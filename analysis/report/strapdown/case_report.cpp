@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/identification/identify.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/json.hpp"
@@ -89,11 +90,6 @@ std::string counted(std::size_t n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-/// Whether a chi-square per degree of freedom is beyond what noise makes of it: five of its sigmas.
-bool misfits(const EstimateResult& e) {
-  return e.statistic_per_dof() > 1.0 + 5.0 * std::sqrt(2.0 / static_cast<double>(e.measured));
-}
-
 std::string contest_sentence(const CaseIdentification& id) {
   std::vector<std::string> errors;
   for (const CaseFit& fit : id.fits)
@@ -101,6 +97,20 @@ std::string contest_sentence(const CaseIdentification& id) {
                                  number_text(fit.up.held_out, 4)));
   return fmt::format("Held-out turns: {} ({:.1f} standard errors in favour of eq. ({}))",
                      fmt::join(errors, ", "), std::abs(id.eq5_gain), id.eq5_gain > 0.0 ? 5 : 6);
+}
+
+/// Of the filter without what was held out; of data that no fit could predict nothing.
+std::string errors_sentence(const CaseFit& fit) {
+  const bool up = fit.up.count > 0 && std::isfinite(fit.up.held_out),
+             gyro = fit.up.count > 0 && std::isfinite(fit.gyro.held_out);
+  return fmt::format("{}{}{}",
+                     up ? fmt::format("Up after a turn that was held out: {} deg off",
+                                      number_text(fit.up.held_out, 3))
+                        : "",
+                     gyro ? fmt::format("{}yros in dwells held out: {} deg/h", up ? "; g" : "G",
+                                        number_text(fit.gyro.held_out, 3))
+                          : "",
+                     up || gyro ? "." : "");
 }
 
 InBrief in_brief(const CaseIdentification& id) {
@@ -125,7 +135,7 @@ InBrief in_brief(const CaseIdentification& id) {
         id.latitude->alone() ? "" : " and more", latitude_text(*id.latitude),
         id.latitude->declared / unit::deg.to_si, number_text(id.latitude->chi2_per_dof_after, 3),
         number_text(id.latitude->chi2_per_dof_before, 3), upside_down_text(*id.latitude));
-  else if (misfits(estimate))
+  else if (identification::misfit(estimate))
     brief.verdict = fmt::format(
         "Misfit: {} where noise makes 1: something is missing or wrong, and no number below is to "
         "be trusted.",
@@ -136,16 +146,12 @@ InBrief in_brief(const CaseIdentification& id) {
   else
     brief.verdict = fmt::format("Found: {} and {}; {}, {}.", counted(dwells.size(), "dwell"),
                                 counted(id.study.test.ways.size(), "turn"), told, fits);
-  brief.tone = id.latitude || misfits(estimate) ? Tone::bad : Tone::good;
+  brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad : Tone::good;
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
   if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");
-  if (first.up.count > 0)
-    brief.more.add(
-        Weight::note,
-        fmt::format("Up after a turn that was held out: {} deg off; gyros in "
-                    "dwells held out: {} deg/h.",
-                    number_text(first.up.held_out, 3), number_text(first.gyro.held_out, 3)));
+  if (const std::string errors = errors_sentence(first); !errors.empty())
+    brief.more.add(Weight::note, errors);
   std::vector<std::string> unseen;
   for (const auto& u : first.unobservable) unseen.push_back(u.what);
   if (!unseen.empty())

@@ -75,6 +75,32 @@ TEST(PlanConfig, ADwellIsAWholeNumberOfSamples) {
   EXPECT_TRUE(bad("1000 h", "0.001 s"));  // more than a recording can hold
 }
 
+TEST(PlanConfig, TheDwellThatIsProposedIsTaken) {
+  const auto proposed = [](const std::string& dwell, const std::string& sample) {
+    const auto text = [&](const std::string& d) {
+      return "preset = \"six\"\ndwell = \"" + d + "\"\nsample = \"" + sample + "\"\n";
+    };
+    const Read r = read(text(dwell));
+    EXPECT_EQ(r.mistakes.size(), 1u) << dwell;
+    if (r.mistakes.empty()) return std::string();
+    const std::string& said = r.mistakes[0];
+    const auto from = said.find("such as \"");
+    EXPECT_NE(from, std::string::npos) << said;
+    if (from == std::string::npos) return std::string();
+    const auto begin = from + std::string_view("such as \"").size();
+    const std::string found = said.substr(begin, said.find('"', begin) - begin);
+    const Read again = read(text(found));
+    EXPECT_TRUE(again.mistakes.empty()) << found << ": " << again.mistakes[0];
+    return found;
+  };
+  EXPECT_EQ(proposed("100000 min", "60 min"), "99960 min");  // 6001200 s would be out of range
+  EXPECT_EQ(proposed("60 min", "7 s"), "3598 s");
+  EXPECT_EQ(proposed("100 min", "60 min"), "120 min");
+  EXPECT_EQ(proposed("30 s", "60 s"), "1 min");
+  EXPECT_EQ(proposed("0.001 min", "0.041 s"), "0.082 s");  // one sample would be too short
+  EXPECT_EQ(proposed("20000.0005 s", "0.001 s"), "10000 s");
+}
+
 TEST(PlanConfig, ADwellThatNoPositionHasNeedsNoWholeNumberOfSamples) {
   const std::string plan = "sample = \"60.0012 s\"\n",
                     position = "[[plan.position]]\naxes = \"x=N y=W z=U\"\n";

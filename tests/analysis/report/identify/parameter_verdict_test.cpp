@@ -2,6 +2,8 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
@@ -97,7 +99,11 @@ TEST(FitWords, TheWordOfAFitFollowsFromTheBandBesideIt) {
   // 5 sigma: sqrt(2 / 1000) times 5 is 0.2236.
   EXPECT_EQ(word(1222.0), "outside the band");
   EXPECT_EQ(word(1225.0), "misfit");
-  EXPECT_EQ(word(775.0), "misfit");
+  EXPECT_EQ(word(778.0), "outside the band");
+  EXPECT_EQ(word(775.0), "less noise");
+  r.noise_at_most = true;
+  EXPECT_EQ(word(775.0), "outside the band");
+  r.noise_at_most = false;
   r.statistic = 1150.0;
   const std::string said = fmt::format(
       "{}", fmt::join(report::identification_in_brief(f.study, f.id).more.texts(), "\n"));
@@ -105,6 +111,41 @@ TEST(FitWords, TheWordOfAFitFollowsFromTheBandBesideIt) {
                       "% band of a right model, 0.914 to 1.090 (so far by chance: 0.001)"),
             std::string::npos)
       << said;
+}
+
+TEST(FitWords, AFitWithLessNoiseThanDeclaredStands) {
+  Fitted f;
+  f.id.runs[0].batch.estimate.statistic = 292.0;  // of 1000 scalars
+  // Every sigma is a tenth of its prior's: of each parameter 0.99 scalars were taken.
+  const double taken = 0.99 * static_cast<double>(f.id.summaries[0].layout.size());
+  f.id.runs[0].batch.data_chi2 = 0.25 * (1000.0 - taken);
+  EXPECT_EQ(f.verdict(0).worth, Worth::learned);
+  report::InBrief brief = report::identification_in_brief(f.study, f.id);
+  EXPECT_EQ(brief.verdict,
+            "Fits, with less noise than declared: the residuals are about 0.5 times what [readout] "
+            "declares from filter corrected (chi-square per degree of freedom 0.292, 1 expected); "
+            "filter legacy leaves more (chi-square per degree of freedom 1.01). The estimates "
+            "stand, their sigmas are too wide. The noise is smaller than declared.");
+  EXPECT_EQ(brief.tone, report::Tone::doubtful);
+  EXPECT_NE(brief.next.find("declare that in [readout]"), std::string::npos) << brief.next;
+  const std::string said = fmt::format("{}", fmt::join(brief.more.texts(), "\n"));
+  EXPECT_EQ(said.find("not to be trusted"), std::string::npos) << said;
+  EXPECT_EQ(said.find("a small effect is missing"), std::string::npos) << said;
+  const report::Json json = report::identification_document(f.study, f.id);
+  EXPECT_EQ(json["filters"][0]["fit"], "less_noise");
+  EXPECT_NEAR(json["filters"][0]["noise_of_declared"], 0.5, 1e-9);
+  EXPECT_EQ(json["filters"][1]["fit"], "ok");
+  EXPECT_TRUE(json["filters"][1]["noise_of_declared"].is_null());
+  // What a recording made of it may be joined rows.
+  f.id.simulated = false;
+  brief = report::identification_in_brief(f.study, f.id);
+  EXPECT_NE(brief.verdict.find("or rows were joined whose noise is not white"), std::string::npos)
+      << brief.verdict;
+  // Somewhat below the band nothing is missing either.
+  f.id.runs[0].batch.estimate.statistic = 850.0;
+  const std::string below = fmt::format(
+      "{}", fmt::join(report::identification_in_brief(f.study, f.id).more.texts(), "\n"));
+  EXPECT_NE(below.find("noise is less, or priors are narrower"), std::string::npos) << below;
 }
 
 TEST(FitWords, ParametersFarFromTheirPriorsAreSaid) {
