@@ -74,6 +74,7 @@ TEST(Thresholds, ParametersFartherFromTheirPriorsThanAnyWouldBeAreSaid) {
     BatchResult& fit = found.fit;
     for (std::size_t k = 0; k < 40; ++k) {
       nominal.active.set(k);
+      nominal.priors[k] = normal(1.0, 2.0);
       ParameterEstimate p;
       p.param = k;
       p.prior_mean = p.value = 1.0;

@@ -137,7 +137,7 @@ inline const Case cases[] = {
      "dwell = \"60 min\"\nsample = \"7 s\"",
      "7:9",
      {"514.286 samples", "a whole number", "\"3598 s\""}},
-    {7, "dwell = \"30 s\"", "7:9", {"0.5 samples", "at least one", "\"60 s\""}},
+    {7, "dwell = \"30 s\"", "7:9", {"0.5 samples", "at least one", "\"1 min\""}},
     {7, "dwell = \"-60 min\"", "7:9", {"out of range"}},
     {7, "dwell = \"60 mins\"", "7:9", {"unknown unit 'mins'", "Did you mean 'min'?"}},
     {7, "dwel = \"60 min\"", "7:1", {"unknown key 'plan.dwel'", "Did you mean 'dwell'?"}},
