@@ -78,6 +78,13 @@ class Gaps {
     return time_[row] - begin_of_caged(row) > 1.5 * spacing_.usual[row];
   }
 
+  /// [s] How long the rows of a position last whose first one is as long as is usual.
+  double by_its_rows(std::size_t row) const {
+    std::size_t last = row;
+    while (last + 1 < time_.size() && position_[last + 1] == position_[row]) ++last;
+    return time_[last] - time_[row] + spacing_.usual[row];
+  }
+
   /// The same, or the first ones are missing: the dwell began where the one before ended.
   bool began_earlier(std::size_t row) const {
     return begins_long(row) && std::abs(begin_of_caged(row) - ended_before(row)) <
@@ -196,6 +203,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   std::vector<double> begins(n);
   double missing = 0.0;
   std::size_t count = 0, first = 0, longer = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // [s] of those by their rows
   const auto not_measured = [&](std::size_t row) {
     for (Channel& c : out.recording.channels)
       if (is_accelerometer(c)) c.values[row] = nan_value;
@@ -204,7 +212,11 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
     if (gaps.caged(row)) {
       begins[row] = gaps.begin_of_caged(row);
       const bool long_row = gaps.begins_long(row);
-      longer += long_row ? 1 : 0;
+      if (long_row) {
+        ++longer;
+        least = std::min(least, gaps.by_its_rows(row));
+        most = std::max(most, gaps.by_its_rows(row));
+      }
       if (gaps.begins_uncertain(row, study.readout) || long_row) not_measured(row);
       continue;
     }
@@ -228,8 +240,13 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   if (longer > 0)
     remarks.push_back(fmt::format(
         "{}: the first row of {} caged position{} is longer than is usual, by the dwell of the "
-        "plan, or rows are missing before it: its accelerometers are taken as not measured",
-        name, longer, longer == 1 ? "" : "s"));
+        "plan, or rows are missing before it: its accelerometers are taken as not measured{}",
+        name, longer, longer == 1 ? "" : "s",
+        most - least < RecordingLimits::grid_room * out.spacing.usual.front()
+            ? fmt::format(" (if the platform was caged up to the usual step before it, the dwell "
+                          "is {:.6g} min, and plan.dwell is to say so)",
+                          most / unit::minute.to_si)
+            : ""));
   if (count > 0)
     remarks.push_back(fmt::format(
         "{}: {:.0f} {} missing within positions, in {} gap{}, the first before line {}: the "

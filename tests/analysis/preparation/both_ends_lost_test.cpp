@@ -62,5 +62,24 @@ TEST(BothEndsLost, ElseItIsOneRowBeforeItsFirst) {
   EXPECT_DOUBLE_EQ(begin_of(prepare(study(), {r}), 4.0), 3.0 * 600.0 + 60.0);
 }
 
+TEST(BothEndsLost, OfPositionsThatAreAllShorterTheDwellThatWouldExplainItIsSaid) {
+  Recording r = recording();
+  for (double position = 1.0; position <= 6.0; position += 1.0) r = without(r, position, {9});
+  // Times alone do not tell a caged minute behind each position from one in front of it.
+  const Prepared p = prepare(study(), {r});
+  EXPECT_DOUBLE_EQ(begin_of(p, 4.0), 3.0 * 600.0 - 60.0);
+  const auto says = [](const Prepared& of, std::string_view text) {
+    return std::ranges::any_of(
+        of.remarks, [&](const auto& remark) { return remark.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(says(p, "the first row of 5 caged positions is longer than is usual"));
+  EXPECT_TRUE(says(p, "the dwell is 9 min, and plan.dwell is to say so"));
+  mc::Study shorter = study();
+  shorter.plan = preset_plan("six", {.dwell = 540.0, .sample = 60.0}).value();
+  const Prepared q = prepare(shorter, {r});
+  EXPECT_DOUBLE_EQ(begin_of(q, 4.0), 3.0 * 600.0);
+  EXPECT_FALSE(says(q, "longer than is usual"));
+}
+
 }  // namespace
 }  // namespace drift::preparation::both_ends_lost_test
