@@ -121,15 +121,20 @@ void tell_remarks(const QualityCard& card) {
         report::plural(remarks.size() - most));
 }
 
-/// Whether both hold the same readings, whatever their files look like.
+/// Whether both hold the same readings, whatever their files look like: to a millionth of the
+/// largest, which another unit or fewer digits may round off.
 bool same_readings(const Recording& a, const Recording& b) {
+  constexpr double rounding = 1e-6;
   bool any = false;
   for (const auto* names : {&accelerometer_channels.names, &gyro_channels.names})
     for (const auto name : *names) {
       const Channel *p = a.find(name), *q = b.find(name);
       if (p == nullptr || q == nullptr) continue;
-      const bool equal = std::ranges::equal(p->values, q->values, [](double x, double y) {
-        return x == y || (std::isnan(x) && std::isnan(y));
+      double largest = 0.0;
+      for (const double x : p->values)
+        if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
+      const bool equal = std::ranges::equal(p->values, q->values, [&](double x, double y) {
+        return std::abs(x - y) <= rounding * largest || (std::isnan(x) && std::isnan(y));
       });
       if (!equal) return false;
       any = any || std::ranges::any_of(p->values, [](double x) { return std::isfinite(x); });

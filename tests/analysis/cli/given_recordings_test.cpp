@@ -23,6 +23,39 @@ TEST(GivenRecordings, TheSameReadingsInAnotherFileAreNoFurtherEvidence) {
   EXPECT_NE(a.err.find("has the same readings as"), std::string::npos) << a.err;
 }
 
+/// A recording with its accelerations in m/s^2, of eight digits.
+std::string in_si(const std::string& recording) {
+  std::istringstream lines(recording);
+  std::vector<std::string> names;
+  std::string out;
+  for (std::string line; std::getline(lines, line); out += "\n") {
+    std::istringstream cells(line);
+    std::size_t column = 0;
+    if (line.starts_with("#")) continue;
+    const bool header = names.empty();
+    for (std::string cell; std::getline(cells, cell, ','); ++column) {
+      if (header) names.push_back(cell);
+      if (names.at(column).starts_with("acc_"))
+        cell = header ? cell.substr(0, 5) + " [m/s^2]"
+                      : fmt::format("{:.8g}", std::stod(cell) * 9.80665);
+      out += (column > 0 ? "," : "") + cell;
+    }
+  }
+  return out;
+}
+
+TEST(GivenRecordings, TheSameReadingsInAnotherUnitAreNoneEither) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("made.toml", short_study), one = folder.file("one.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + one).code, 0);
+  const std::string again = folder.write("again.csv", in_si(text_of(one)));
+  const Answer alone = driftscope("identify " + study + " " + again + " --quiet");
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  const Answer a = driftscope("identify " + study + " " + one + " " + again + " --quiet");
+  EXPECT_EQ(a.code, static_cast<int>(ExitCode::usage));
+  EXPECT_NE(a.err.find("has the same readings as"), std::string::npos) << a.err;
+}
+
 TEST(GivenRecordings, OfACaseThatStoodAtFortyFiveDegreesNewSaysBoth) {
   const ScratchFolder folder;
   const std::string study = folder.write("made.toml", short_study), made = folder.file("made.csv"),
