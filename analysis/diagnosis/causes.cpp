@@ -38,6 +38,8 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
       out.high_95 = out.any_of.back();
     }
   }
+  // What sets in before the test does so with it.
+  if (spec.kind == ParamKind::moment) out.value = std::max(out.value, 0.0);
   const Prior prior = nominal.filter.believed(param);
   if (prior.sigma() > 0.0)
     out.prior_sigmas = (out.value * spec.unit.to_si - prior.mean()) / prior.sigma();

@@ -25,7 +25,8 @@ inline constexpr std::size_t most_profiles = 8;
 std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest& test,
                                  const std::vector<search::Cause>& causes);
 
-/// Gives the parameters of causes the intervals that were profiled.
+/// Gives the parameters of causes the intervals that were profiled, and a value that lies outside
+/// its own the top of its profile.
 void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles);
 
 }  // namespace drift::diagnosis

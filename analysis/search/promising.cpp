@@ -166,6 +166,23 @@ std::vector<std::size_t> as_good_with_credible_sizes(const Search& s) {
 
 namespace {
 
+/// Whether two causes are parts of one term that a candidate has together, of one axis or one group
+/// of parameters; or share its settings. Of the unbalance of two gyros in different directions only
+/// the whole term has both, with parameters besides that nothing asks for.
+bool are_offered_together(const std::vector<inference::Candidate>& candidates,
+                          const Explanation& pair) {
+  const inference::Candidate &a = candidates[pair[0].candidate], &b = candidates[pair[1].candidate];
+  if (a.term != b.term) return false;
+  if (a.axis.empty() || b.axis.empty() || a.axis == b.axis) return true;
+  if (!a.variants.front().settings.empty()) return true;
+  const auto group = [](std::size_t param) { return TermLibrary::specs[param].group.view(); };
+  const auto all_of_group = [&](const inference::Candidate& c) {
+    return std::ranges::all_of(c.params,
+                               [&](std::size_t i) { return group(i) == group(a.params.front()); });
+  };
+  return all_of_group(a) && all_of_group(b);
+}
+
 std::vector<Explanation> promising_pairs(const Search& s, std::size_t most,
                                          const WorthALook& worth) {
   constexpr double allowed = ReachLimits::pair_slack;  // of the thresholds
@@ -197,8 +214,7 @@ std::vector<Explanation> pairs_against(const Search& s, const Refit& single, std
   const double least = of_single + std::log(1.0 - inference::SearchLimits::credible);
   return promising_pairs(s, most, [&](const Explanation& pair, double log_bayes) {
     const auto& candidates = s.nominal.set.candidates;
-    // A term is missing or not: parts of one are offered together.
-    if (candidates[pair[0].candidate].term == candidates[pair[1].candidate].term) return false;
+    if (are_offered_together(candidates, pair)) return false;
     const double most_of_it = log_bayes + prior.log_within(pair);
     return most_of_it > least && std::ranges::none_of(pair, is_closure) &&
            most_of_it + log_share_of_settings(s.nominal, pair) > least;

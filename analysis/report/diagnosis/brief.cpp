@@ -36,7 +36,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
   if (d.heading_doubt) return corrected_text(*d.heading_doubt, "diagnose");
   if (d.site_doubt && d.site_doubt->clock) return clock_next(*d.site_doubt->clock, "diagnose");
   if (d.site_doubt) return latitude_next(*d.site_doubt, "diagnose");
-  if (const std::string priors = priors_at_fault(d); !priors.empty())
+  if (const std::string priors = priors_at_fault_text(d); !priors.empty())
     return fmt::format(
         "Next: correct {}, or widen it to hold what the fit takes, and diagnose again.", priors);
   if (off_zero && d.verdict != Verdict::consistent)
@@ -121,9 +121,9 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
       off_zero = true;
     }
   // Of what is not explained it is no news that parameters take it up, unless that explains it.
-  const Weight doubt = labels_are_late(d) || !priors_at_fault(d).empty() ? Weight::wrong
-                       : d.verdict == Verdict::unexplained               ? Weight::note
-                                                                         : Weight::doubtful;
+  const Weight doubt = labels_are_late(d) || !priors_at_fault_text(d).empty() ? Weight::wrong
+                       : d.verdict == Verdict::unexplained                    ? Weight::note
+                                                                              : Weight::doubtful;
   if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
   brief.next = next_step(d, off_zero);

@@ -26,7 +26,7 @@ std::vector<std::string> keys_of(const remark::BeyondPrior& r) {
 
 }  // namespace
 
-std::string priors_at_fault(const Diagnosis& d) {
+std::string priors_at_fault_text(const Diagnosis& d) {
   const auto* beyond = remark_in<remark::BeyondPrior>(d);
   if (beyond == nullptr || !beyond->explains) return "";
   return fmt::format("the prior{} of {}", beyond->parameters.size() > 1 ? "s" : "",
