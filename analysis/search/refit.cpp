@@ -10,6 +10,7 @@
 #include "analysis/search/fit_causes.hpp"
 #include "analysis/search/settings_alike.hpp"
 #include "analysis/search/settle_noise.hpp"
+#include "core/stats/normal.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::search {
@@ -134,6 +135,16 @@ std::optional<FilterSpec> with_room_for_settings(const inference::CandidateSet& 
   return room;
 }
 
+/// Twice the negative log likelihood of a fit, but for a constant, without the priors of settings.
+double loss_without_settings(const Refit& r) {
+  double loss = r.after.fit.estimate.statistic;
+  for (const ParameterEstimate& p : r.after.fit.estimate.parameters)
+    if (TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
+      loss -= std::pow(
+          (p.value - r.filter.priors[p.param].mean()) / r.filter.priors[p.param].sigma(), 2);
+  return loss;
+}
+
 /// Whether settings are where the fit before had them.
 bool settings_stay(const FilterSpec& room, const BatchResult& fit) {
   constexpr double moved = 0.1;  // sigmas
@@ -250,23 +261,25 @@ void give_settings_room(Refit& r, const Fitted& nominal, const MeasuredTest& tes
   constexpr int passes = 8;  // a prior holds back what is far from it: each gives more room
   auto room = with_room_for_settings(nominal.set, r);
   if (!room) return;
-  for (int pass = 0; pass < passes; ++pass) {
+  Refit roomy = r;
+  for (int pass = 0; pass < passes && room; ++pass) {
     const BatchResult fit =
-        fit_batch_from(*room, test, theta_of(*room, r.after.fit), r.after.fit.psi0_l);
-    Refit roomy = scored(r.choices, *room, fit, {nominal, test, thresholds, kinds});
-    roomy.as_found = r.as_found;
-    roomy.nameable = r.nameable;
-    roomy.sign_agrees = r.sign_agrees;
-    roomy.log_bayes = r.log_bayes;
-    if (r.after.unknown) roomy.after.unknown = roomy.after.strongest_inputs();
-    roomy.after.forget_signatures();
-    auto more = with_room_for_settings(nominal.set, roomy);
-    if (!more) return;  // it went back into the grid, where its prior holds
-    const bool settled = settings_stay(*room, fit);
-    r = std::move(roomy);
-    if (settled) return;
-    room = std::move(more);
+        fit_batch_from(*room, test, theta_of(*room, roomy.after.fit), roomy.after.fit.psi0_l);
+    roomy = scored(r.choices, *room, fit, {nominal, test, thresholds, kinds});
+    if (settings_stay(*room, fit)) break;
+    room = with_room_for_settings(nominal.set, roomy);
   }
+  // Else it is within the interval of what the data say, and these may say next to nothing.
+  if (!(loss_without_settings(r) - loss_without_settings(roomy) >
+        std::pow(stats::half_width_95, 2)))
+    return;
+  roomy.as_found = r.as_found;
+  roomy.nameable = r.nameable;
+  roomy.sign_agrees = r.sign_agrees;
+  roomy.log_bayes = r.log_bayes;
+  if (r.after.unknown) roomy.after.unknown = roomy.after.strongest_inputs();
+  roomy.after.forget_signatures();
+  r = std::move(roomy);
 }
 
 std::vector<Refit> refit_all(const Fitted& nominal, const MeasuredTest& test,

@@ -36,9 +36,9 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
 
 /// A setting that a fit took beyond the library's grid is held back by its prior, which stands for
-/// the distance of grid points: the fit is made again with one as wide as the setting itself. What
-/// the test says of it is stated then, and of all that goes with it; how probable the causes are
-/// stays as the library's settings make it.
+/// the distance of grid points: the fit is made again with one as wide as the setting itself. Where
+/// the first one lies outside the 95 % interval of that, what the test says of it is stated, and of
+/// all that goes with it; how probable the causes are stays as the library's settings make it.
 void give_settings_room(Refit& r, const Fitted& nominal, const MeasuredTest& test,
                         const ChanceThresholds& thresholds, NoiseKinds kinds);
 

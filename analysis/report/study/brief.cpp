@@ -3,6 +3,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/study/sections.hpp"
+#include "core/physics/stochastic.hpp"
 
 namespace drift::report {
 namespace {
@@ -82,19 +83,27 @@ std::string sigmas_text(const StudyResults& results, const Tally& t) {
       number_text(t.sigmas_off, 2), pair_in_words(results, *t.overconfident));
 }
 
-std::string not_linear_text(const StudyResults& results, const Pair& pair) {
-  const mc::StartStatistics& start = statistics_of(results, pair).starts().front();
-  const mc::EstimatorKind estimator = results.points[pair.point].study.monte_carlo.estimator;
+/// What makes sigmas too small where truths, noise and filter are alike, and what to do.
+std::string estimator_text(const mc::Study& study) {
+  const mc::EstimatorKind estimator = study.monte_carlo.estimator;
+  if (has_outliers(study.truth.model().terms) && estimator != mc::EstimatorKind::batch)
+    return "it meets the samples one by one, and right after a caging cannot tell an outlier from "
+           "what it does not know yet. Set monte_carlo.estimator = \"batch\", which weighs all";
   return fmt::format(
-      "The sigmas are too small: errors are {} times as large (root of NEES/dof, by chance up to "
-      "{}; {}). Truths, noise and filter are alike, so it is the estimator: it is linear about one "
-      "estimate, and over what stays unknown the model is not (products of parameters, narrow "
-      "effects). {}.",
-      number_text(sigmas_off(start), 3), number_text(std::sqrt(start.nees.high()), 3),
-      pair_in_words(results, pair),
+      "it is linear about one estimate, and over what stays unknown the model is not (products of "
+      "parameters, narrow effects). {}",
       estimator == mc::EstimatorKind::ekf
           ? "Set monte_carlo.estimator = \"iterated\", which linearises anew"
           : "Go by the errors of this study, not by the sigmas");
+}
+
+std::string not_linear_text(const StudyResults& results, const Pair& pair) {
+  const mc::StartStatistics& start = statistics_of(results, pair).starts().front();
+  return fmt::format(
+      "The sigmas are too small: errors are {} times as large (root of NEES/dof, by chance up to "
+      "{}; {}). Truths, noise and filter are alike, so it is the estimator: {}.",
+      number_text(sigmas_off(start), 3), number_text(std::sqrt(start.nees.high()), 3),
+      pair_in_words(results, pair), estimator_text(results.points[pair.point].study));
 }
 
 }  // namespace
