@@ -132,33 +132,7 @@ runs = 320
 allowed_failures = 99
 EOF
 blind=$scratch/blind.toml
-cat >"$blind" <<'EOF'
-schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-preset = "six"
-dwell  = "15 min"
-sample = "180 s"
-[readout]
-accelerometer_noise = "5 ug"
-gimbal_noise        = "5 arcsec"
-[truth]
-coupling = "eq5"
-[[filter]]
-name     = "nominal"
-coupling = "eq5"
-[monte_carlo]
-seed = 5
-[blind]
-trials = 2
-plans  = ["six"]
-sizes  = [6]
-most_prior_sigmas = 100
-[blind.shares]
-null   = 1
-single = 1
-EOF
+sed -n '/R"toml(/,/^)toml/{s/.*R"toml(//;/^)toml/!p}' "$(dirname "$0")/support/tiny_blind_study.hpp" >"$blind"
 "$synthetic" run "$scratch/synthetic.toml" -o "$scratch/study" >/dev/null 2>&1 || fail "the study"
 
 for format in csv h5 mat; do each_file "r.$format" "$program" simulate "$config"; done
@@ -174,6 +148,6 @@ each_kill digest "$synthetic" run "$scratch/synthetic.toml" --threads 1
 each_kill numbers "$program" identify "$config" --threads 1
 each_kill ranks "$program" rank "$config"
 each_kill diagnoses "$program" diagnose "$config" "$scratch/r.csv" --threads 1
-each_kill answers "$program" blind "$blind" --threads 1
-each_kill answers "$program" blind "$blind" --threads 1 --worker 0/1
+each_kill answers "$program" blind "$blind" --trials 2 --threads 1
+each_kill answers "$program" blind "$blind" --trials 2 --threads 1 --worker 0/1
 echo "$total faults, every end whole or exit code 6"

@@ -184,7 +184,8 @@ ExitCode look_without_study(const std::string& path) {
 
 /// By its name and, where a study might have such a one, by columns of numbers that are channels.
 bool evident_recording(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;
   if (is_binary_file(path)) return true;
   if (!is_text_file(path)) return false;
   try {

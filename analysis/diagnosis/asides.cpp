@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/common_scale.hpp"
@@ -160,11 +161,12 @@ std::optional<remark::BeyondPrior> priors_at_fault(const FilterSpec& nominal,
   FilterSpec wide = nominal;
   BatchResult at = fit;
   remark::BeyondPrior out;
+  std::size_t widened = 0;  // parameters, in the pass before
   for (int pass = 0; pass < passes; ++pass) {
     out = far_from(nominal, at.estimate, options.alpha);
     if (out.parameters.empty()) return std::nullopt;
     FilterSpec wider = nominal;
-    bool same = true;
+    bool same = out.parameters.size() == std::exchange(widened, out.parameters.size());
     for (const remark::BeyondPrior::Parameter& p : out.parameters) {
       const double width = p.sigmas * p.estimate.prior_sigma;
       wider.priors[p.estimate.param] = normal(p.estimate.prior_mean, width);

@@ -40,9 +40,7 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
   }
   // What sets in before the test does so with it.
   if (spec.kind == ParamKind::moment) out.value = std::max(out.value, 0.0);
-  const Prior prior = nominal.filter.believed(param);
-  if (prior.sigma() > 0.0)
-    out.prior_sigmas = (out.value * spec.unit.to_si - prior.mean()) / prior.sigma();
+  out.prior_sigmas = prior_sigmas(nominal.filter, param, out.value);
   return out;
 }
 
@@ -177,6 +175,13 @@ bool explains_all_of(const search::Fitted& nominal, const std::vector<int>& caus
 }
 
 }  // namespace
+
+double prior_sigmas(const FilterSpec& nominal, std::size_t param, double value) {
+  const Prior prior = nominal.believed(param);
+  return prior.sigma() > 0.0
+             ? (value * TermLibrary::specs[param].unit.to_si - prior.mean()) / prior.sigma()
+             : std::numeric_limits<double>::quiet_NaN();
+}
 
 CausesFound causes_of(const search::Fitted& nominal, const search::Search& found) {
   const inference::Projected& p = nominal.projected;

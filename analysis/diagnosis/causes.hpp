@@ -18,4 +18,8 @@ struct CausesFound {
 };
 CausesFound causes_of(const search::Fitted& nominal, const search::Search& found);
 
+/// How far a value [unit of the parameter] is from what the nominal model would believe of it, in
+/// sigmas of that; NaN where that is one value.
+double prior_sigmas(const FilterSpec& nominal, std::size_t param, double value);
+
 }  // namespace drift::diagnosis

@@ -191,7 +191,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
     if (d.proposal) move_to(place, *d.proposal);
   }
   d.profiles = profiled(found, test, causes.causes, options, stages);
-  set_intervals(causes.causes, d.profiles);
+  set_intervals(causes.causes, d.profiles, nominal_filter);
   stages.begin("starts", 0.07);
   d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
   if (best && !starts.empty())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/causes.hpp"
 #include "analysis/diagnosis/profile_interval.hpp"
 #include "analysis/equation/held_parameter.hpp"
 #include "mc/task/campaign.hpp"
@@ -138,7 +139,8 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
   return profiles;
 }
 
-void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles) {
+void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles,
+                   const FilterSpec& nominal) {
   for (search::Cause& cause : causes)
     for (search::CauseParameter& p : cause.parameters)
       for (const Profile& profile : profiles) {
@@ -148,7 +150,9 @@ void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile
         p.low_95 = profile.low_95;
         p.high_95 = profile.high_95;
         // Noise that drives the platform is not in the fit, and is in the refits: they are right.
-        if (p.value < p.low_95 || p.value > p.high_95) p.value = profile.top;
+        if (!(p.value < p.low_95) && !(p.value > p.high_95)) continue;
+        p.value = profile.top;
+        p.prior_sigmas = prior_sigmas(nominal, p.param, p.value);
       }
 }
 

@@ -26,7 +26,8 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
                                  const std::vector<search::Cause>& causes);
 
 /// Gives the parameters of causes the intervals that were profiled, and a value that lies outside
-/// its own the top of its profile.
-void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles);
+/// its own the top of its profile. nominal: the model that lacks the causes.
+void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile>& profiles,
+                   const FilterSpec& nominal);
 
 }  // namespace drift::diagnosis

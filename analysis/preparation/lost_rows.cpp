@@ -52,8 +52,7 @@ class Gaps {
     const double begin = time_[row] - usual;
     const double before = row > 0 ? time_[row - 1] : -std::numeric_limits<double>::infinity();
     if (p && !(phase_ && phase_->values[row] == 1.0)) {
-      std::size_t last = row;
-      while (last + 1 < time_.size() && position_[last + 1] == position_[row]) ++last;
+      const std::size_t last = last_of(row);
       const double by_plan = time_[last] - p->dwell, earlier = (begin - by_plan) / usual;
       if (std::abs(by_plan - ended_before(row)) < RecordingLimits::grid_room * usual)
         return std::max(by_plan, before);  // however long the first row is
@@ -80,9 +79,7 @@ class Gaps {
 
   /// [s] How long the rows of a position last whose first one is as long as is usual.
   double by_its_rows(std::size_t row) const {
-    std::size_t last = row;
-    while (last + 1 < time_.size() && position_[last + 1] == position_[row]) ++last;
-    return time_[last] - time_[row] + spacing_.usual[row];
+    return time_[last_of(row)] - time_[row] + spacing_.usual[row];
   }
 
   /// The same, or the first ones are missing: the dwell began where the one before ended.
@@ -137,6 +134,11 @@ class Gaps {
   }
 
  private:
+  /// The last row of the position of a row.
+  std::size_t last_of(std::size_t row) const {
+    while (row + 1 < time_.size() && position_[row + 1] == position_[row]) ++row;
+    return row;
+  }
   /// When the position before ended; a test begins at 0.
   double ended_before(std::size_t row) const { return row > 0 ? time_[row - 1] : 0.0; }
   const Position* planned(std::size_t row) const { return planned_position(plan_, position_[row]); }
@@ -202,7 +204,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   std::vector<std::pair<std::size_t, double>> changes;
   std::vector<double> begins(n);
   double missing = 0.0;
-  std::size_t count = 0, first = 0, longer = 0;
+  std::size_t count = 0, first = 0, caged = 0, longer = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;  // [s] of those by their rows
   const auto not_measured = [&](std::size_t row) {
     for (Channel& c : out.recording.channels)
@@ -211,6 +213,7 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
   for (std::size_t row = 0; row < n; ++row) {
     if (gaps.caged(row)) {
       begins[row] = gaps.begin_of_caged(row);
+      ++caged;
       const bool long_row = gaps.begins_long(row);
       if (long_row) {
         ++longer;
@@ -242,7 +245,8 @@ Spaced with_begins(const Recording& recording, const mc::Study& study,
         "{}: the first row of {} caged position{} is longer than is usual, by the dwell of the "
         "plan, or rows are missing before it: its accelerometers are taken as not measured{}",
         name, longer, longer == 1 ? "" : "s",
-        most - least < RecordingLimits::grid_room * out.spacing.usual.front()
+        longer > 1 && longer + 1 >= caged &&  // all of them: of the first one nobody can know
+                most - least < RecordingLimits::grid_room * out.spacing.usual.front()
             ? fmt::format(" (if the platform was caged up to the usual step before it, the dwell "
                           "is {:.6g} min, and plan.dwell is to say so)",
                           most / unit::minute.to_si)

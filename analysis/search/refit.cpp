@@ -104,54 +104,59 @@ std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, cons
   return room;
 }
 
-/// A setting beyond the ends of the grid on which it was looked for, as a fit has it. Moments have
-/// no grid of the library's.
-bool beyond_grid(const inference::Candidate& c, std::size_t param, double value) {
-  if (TermLibrary::specs[param].kind != ParamKind::nonlinear) return false;
-  const auto on_one_side = [&](bool above) {
-    return std::ranges::all_of(c.variants, [&](const inference::Variant& v) {
-      const auto at = std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first);
-      return above ? value > at->second : value < at->second;
-    });
-  };
-  return on_one_side(true) || on_one_side(false);
-}
-
-/// The filter with each setting beyond its grid believed where the fit has it, give or take as much
-/// as it is itself. Nothing where none is, nor beside lambda, which is all but held.
-std::optional<FilterSpec> with_room_for_settings(const inference::CandidateSet& set,
-                                                 const Refit& r) {
-  std::optional<FilterSpec> room;
+/// Time constants of the causes, as a fit has them, that lie beyond the ends of the grids on which
+/// they were looked for (moments have none). None beside lambda, which is all but held.
+std::vector<std::size_t> settings_beyond_grid(const inference::CandidateSet& set, const Refit& r) {
+  std::vector<std::size_t> beyond;
   for (const Choice& choice : r.choices) {
     const inference::Candidate& c = set.candidates[choice.candidate];
-    if (c.term == closure_term) return std::nullopt;
-    for (const auto& [i, grid_point] : c.variants[choice.variant].settings) {
-      const ParameterEstimate* p = r.after.fit.estimate.find(i);
-      if (!p || p->value * grid_point <= 0.0 || !beyond_grid(c, i, p->value)) continue;
-      if (!room) room = r.filter;
-      room->priors[i] = normal(p->value, std::abs(p->value));
+    if (c.term == closure_term) return {};
+    for (const auto& [param, grid_point] : c.variants[choice.variant].settings) {
+      const ParameterEstimate* p = r.after.fit.estimate.find(param);
+      if (TermLibrary::specs[param].kind != ParamKind::nonlinear || !p ||
+          p->value * grid_point <= 0.0)
+        continue;
+      const auto setting_of = [i = param](const inference::Variant& v) {
+        return std::ranges::find(v.settings, i, &std::pair<std::size_t, double>::first)->second;
+      };
+      const auto [least, most] = std::ranges::minmax(c.variants, {}, setting_of);
+      if (p->value < setting_of(least) || p->value > setting_of(most)) beyond.push_back(param);
     }
+  }
+  return beyond;
+}
+
+/// A fit's filter with these settings believed where the fit has them, give or take as much as they
+/// are themselves.
+FilterSpec with_room_for(const std::vector<std::size_t>& settings, const Refit& r) {
+  FilterSpec room = r.filter;
+  for (const std::size_t i : settings) {
+    const double value = r.after.fit.estimate.find(i)->value;
+    room.priors[i] = normal(value, std::abs(value));
   }
   return room;
 }
 
-/// Twice the negative log likelihood of a fit, but for a constant, without the priors of settings.
-double loss_without_settings(const Refit& r) {
-  double loss = r.after.fit.estimate.statistic;
-  for (const ParameterEstimate& p : r.after.fit.estimate.parameters)
-    if (TermLibrary::specs[p.param].kind == ParamKind::nonlinear)
-      loss -= std::pow(
-          (p.value - r.filter.priors[p.param].mean()) / r.filter.priors[p.param].sigma(), 2);
-  return loss;
+/// [sigma of the prior] How far a fit has a parameter from where its filter believed it.
+double off_prior(const Refit& r, std::size_t param) {
+  const Prior& prior = r.filter.priors[param];
+  return (r.after.fit.estimate.find(param)->value - prior.mean()) / prior.sigma();
 }
 
 /// Whether settings are where the fit before had them.
-bool settings_stay(const FilterSpec& room, const BatchResult& fit) {
+bool stay(const std::vector<std::size_t>& settings, const Refit& r) {
   constexpr double moved = 0.1;  // sigmas
-  return std::ranges::all_of(fit.estimate.parameters, [&](const ParameterEstimate& p) {
-    return TermLibrary::specs[p.param].kind != ParamKind::nonlinear ||
-           std::abs(p.value - room.priors[p.param].mean()) <= moved * p.sigma;
+  return std::ranges::all_of(settings, [&](std::size_t i) {
+    return std::abs(off_prior(r, i)) * r.filter.priors[i].sigma() <=
+           moved * r.after.fit.estimate.find(i)->sigma;
   });
+}
+
+/// Twice the negative log likelihood of a fit, but for a constant, without the priors of settings.
+double loss_without(const std::vector<std::size_t>& settings, const Refit& r) {
+  double loss = r.after.fit.estimate.statistic;
+  for (const std::size_t i : settings) loss -= std::pow(off_prior(r, i), 2);
+  return loss;
 }
 
 /// Another equation must be another one: an interval that holds the nominal weight names nothing.
@@ -259,18 +264,18 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
 void give_settings_room(Refit& r, const Fitted& nominal, const MeasuredTest& test,
                         const ChanceThresholds& thresholds, NoiseKinds kinds) {
   constexpr int passes = 8;  // a prior holds back what is far from it: each gives more room
-  auto room = with_room_for_settings(nominal.set, r);
-  if (!room) return;
+  const std::vector<std::size_t> settings = settings_beyond_grid(nominal.set, r);
+  if (settings.empty()) return;
   Refit roomy = r;
-  for (int pass = 0; pass < passes && room; ++pass) {
+  for (int pass = 0; pass < passes; ++pass) {
+    const FilterSpec room = with_room_for(settings, roomy);
     const BatchResult fit =
-        fit_batch_from(*room, test, theta_of(*room, roomy.after.fit), roomy.after.fit.psi0_l);
-    roomy = scored(r.choices, *room, fit, {nominal, test, thresholds, kinds});
-    if (settings_stay(*room, fit)) break;
-    room = with_room_for_settings(nominal.set, roomy);
+        fit_batch_from(room, test, theta_of(room, roomy.after.fit), roomy.after.fit.psi0_l);
+    roomy = scored(r.choices, room, fit, {nominal, test, thresholds, kinds});
+    if (stay(settings, roomy) || settings_beyond_grid(nominal.set, roomy).empty()) break;
   }
   // Else it is within the interval of what the data say, and these may say next to nothing.
-  if (!(loss_without_settings(r) - loss_without_settings(roomy) >
+  if (!(loss_without(settings, r) - loss_without(settings, roomy) >
         std::pow(stats::half_width_95, 2)))
     return;
   roomy.as_found = r.as_found;

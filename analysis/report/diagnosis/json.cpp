@@ -246,7 +246,8 @@ Json diagnosis_document(const Diagnosis& d) {
   out["absent"] = absent_json(d.absent);
   out["absent_positions"] = d.absent_positions;
   out["beyond_prior"] = beyond_prior_json(d);
-  out["prior_explains"] = !priors_at_fault_text(d).empty();
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  out["prior_explains"] = beyond != nullptr && beyond->explains;
   out["other_equation_gain"] = d.other_equation_gain;
   out["where"] = where_json(d.where);
   out["causes"] = causes_json(d.causes);

@@ -2,30 +2,16 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/program.hpp"
+#include "tests/support/short_study.hpp"
 
 namespace drift::look_arguments_test {
 namespace {
 
 using test::driftscope, test::ScratchFolder, test::config_error, test::usage_error;
 
-const std::string study_text = R"toml(schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-preset = "six"
-dwell = "4 min"
-sample = "20 s"
-[truth]
-coupling = "eq5"
-terms = ["fixed_drift"]
-[[filter]]
-coupling = "eq5"
-terms = ["fixed_drift"]
-)toml";
-
 TEST(LookArguments, ARecordingIsNoStudyToReadAnotherWith) {
   const ScratchFolder folder;
-  const std::string study = folder.write("study.toml", study_text);
+  const std::string study = folder.write("study.toml", test::short_study);
   for (const char* name : {"a.csv", "b.csv", "b.h5", "b.mat"})
     ASSERT_EQ(driftscope("simulate '" + study + "' -o '" + folder.file(name) + "'").code, 0);
   const std::string first = folder.file("a.csv");
@@ -45,11 +31,13 @@ TEST(LookArguments, ARecordingIsNoStudyToReadAnotherWith) {
 
 TEST(LookArguments, AStudyIsOneUnderWhateverName) {
   const ScratchFolder folder;
-  const std::string study = folder.write("study.txt", study_text), made = folder.file("a.csv");
+  const std::string study = folder.write("study.txt", test::short_study),
+                    made = folder.file("a.csv");
   ASSERT_EQ(driftscope("simulate '" + study + "' -o '" + made + "'").code, 0);
   const auto look = driftscope("look '" + made + "' '" + study + "'");
   EXPECT_EQ(look.code, 0) << look.err;
-  const std::string wrong = folder.write("wrong.txt", study_text + "[plam]\nx = 1\n");
+  const std::string wrong =
+      folder.write("wrong.txt", std::string(test::short_study) + "[plam]\nx = 1\n");
   EXPECT_EQ(driftscope("look '" + made + "' '" + wrong + "'").code, config_error);
 }
 

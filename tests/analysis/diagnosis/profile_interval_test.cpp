@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/diagnosis/profiles.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::diagnosis::profile_interval_test {
@@ -97,6 +98,31 @@ TEST(ProfileInterval, HoldsTheBestFitThereIs) {
   const std::vector<double> wanted = wanted_points(p, 1.0);
   EXPECT_TRUE(std::ranges::any_of(wanted, [](double v) { return v > 1.0 && v < 1.388; }))
       << "where the top would be";
+}
+
+TEST(Profiles, AValueThatItsRefitsDoNotHoldIsTheirTop) {
+  const auto size = TermLibrary::find("D_F_x").value();
+  const auto stated = [&](double value) {
+    search::Cause cause;
+    cause.term = "fixed_drift";
+    cause.axis = "x";
+    cause.parameters = {{"D_F_x", size, value, 0.4, "deg/h"}};
+    std::vector<search::Cause> causes{cause};
+    Profile profile;
+    profile.label = "fixed_drift.x";
+    profile.param = size;
+    profile.top = 6.15;
+    profile.low_95 = 5.4;
+    profile.high_95 = 6.9;
+    FilterSpec nominal;
+    nominal.priors[size] = normal(0.0, 2.0 * TermLibrary::specs[size].unit.to_si);
+    set_intervals(causes, {profile}, nominal);
+    return causes.front().parameters.front();
+  };
+  EXPECT_EQ(stated(5.9).value, 5.9);
+  EXPECT_EQ(stated(0.5).value, 6.15);
+  EXPECT_NEAR(stated(0.5).prior_sigmas, 6.15 / 2.0, 1e-12);
+  EXPECT_EQ(stated(7.5).value, 6.15);
 }
 
 }  // namespace

@@ -74,6 +74,9 @@ TEST(BothEndsLost, OfPositionsThatAreAllShorterTheDwellThatWouldExplainItIsSaid)
   };
   EXPECT_TRUE(says(p, "the first row of 5 caged positions is longer than is usual"));
   EXPECT_TRUE(says(p, "the dwell is 9 min, and plan.dwell is to say so"));
+  const Prepared one = prepare(study(), {without(recording(), 4.0, {0})});
+  EXPECT_TRUE(says(one, "the first row of 1 caged position is longer than is usual"));
+  EXPECT_FALSE(says(one, "plan.dwell")) << "the dwell of one is not that of the plan";
   mc::Study shorter = study();
   shorter.plan = preset_plan("six", {.dwell = 540.0, .sample = 60.0}).value();
   const Prepared q = prepare(shorter, {r});
