@@ -15,6 +15,7 @@
 #include "core/base/shuffle.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/stats/chi_square_band.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 
 namespace drift::blind {
 namespace {
@@ -27,6 +28,7 @@ World make_world(const mc::Study& study, const mc::Study& nominal, const TrialPl
   w.truth.coupling = plan.coupling;
   w.timeline = lay_out(nominal.plan, nominal.site);
   set_environment(w.timeline, nominal.environment, study.monte_carlo.seed, plan.number);
+  mc::resolve_own_terms(w.timeline, study);
   w.readout = nominal.readout;
   w.draw = draw_truth(w.truth, w.timeline.chains, study.monte_carlo.seed, plan.number);
   return w;

@@ -7,6 +7,7 @@
 #include "core/base/utf8.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/rows/quality_card.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 
 namespace drift::cli {
@@ -44,6 +45,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   Timeline timeline = lay_out(study.plan, study.site);
   set_loop(timeline, study.truth);
   set_environment(timeline, study.environment, study.monte_carlo.seed, run);
+  mc::resolve_own_terms(timeline, study);
   Simulator simulator(study.truth, study.readout);
   const Simulation sim = simulator.run(timeline, study.monte_carlo.seed, run);
   if (!sim.ode.ok())

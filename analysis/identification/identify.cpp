@@ -21,6 +21,7 @@
 #include "core/physics/stochastic.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -218,6 +219,7 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   set_loop(timeline, study.truth);
   const std::uint64_t seed = study.monte_carlo.seed;
   set_environment(timeline, study.environment, seed, run);
+  mc::resolve_own_terms(timeline, study);
   id.samples = samples_of(timeline, study.readout, {timeline.intervals.size()});
   id.excitation = excitation_of(timeline);
   id.truth = draw_truth(study.truth, timeline.chains, seed, run);

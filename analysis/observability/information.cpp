@@ -8,6 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/estimate/measurement_equations.hpp"
 #include "core/estimate/triangle.hpp"
+#include "core/sim/own_term_steps.hpp"
 #include "core/sim/path_in_lanes.hpp"
 
 namespace drift::observability {
@@ -57,6 +58,7 @@ LinearisedPlan linearise(const TestPlan& plan, const RankedModel& model, int bin
   set_environment(timeline, model.environment, 0, 0);
   for (Interval& i : timeline.intervals) i.loop = model.loop;
   const ModelSpec& spec = model.spec;
+  resolve_own_terms(timeline, spec);
   const Trajectory phi =
       integrate(timeline, spec.model(), model.nominal,
                 std::vector<Vec3>(static_cast<std::size_t>(timeline.chains), Vec3::Zero()));

@@ -4,6 +4,7 @@
 
 #include "analysis/observability/ranking.hpp"
 #include "core/estimate/closure/closure_posterior.hpp"
+#include "core/sim/own_term_steps.hpp"
 #include "core/sim/predict.hpp"
 
 namespace drift::observability {
@@ -14,6 +15,7 @@ EstimateResult estimate_of(const TestPlan& plan, const RankedModel& model) {
   Timeline timeline = lay_out(plan, model.site);
   set_environment(timeline, model.environment, 0, 0);
   for (Interval& i : timeline.intervals) i.loop = model.loop;
+  resolve_own_terms(timeline, model.spec);
   const std::vector<Vec3> level(static_cast<std::size_t>(timeline.chains), Vec3::Zero());
   const Measurements measured =
       predict(timeline, model.spec.model(), model.nominal, level, model.readout);

@@ -4,6 +4,8 @@
 
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
+#include "core/sim/own_term_steps.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -84,6 +86,7 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
   }
   RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends), field};
   if (several.size() > 1) test.timeline.recordings = std::move(several);
+  mc::resolve_own_terms(test.timeline, study);
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
     throw InputError(
         ExitCode::recording,
@@ -104,6 +107,7 @@ Timeline planned_test(const mc::Study& study, const TestPlan& plan, const Timeli
       mean_l += i.around1.vector(c) / static_cast<double>(recorded.intervals.size());
     timeline.set_vector(c, mean_l);
   }
+  for (const FilterSpec& filter : study.filters) resolve_own_terms(timeline, filter);
   return timeline;
 }
 

@@ -13,6 +13,7 @@
 #include "core/base/check.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
+#include "core/estimate/strapdown/lone_samples.hpp"
 #include "core/recording/rows/parabola.hpp"
 #include "core/recording/rows/smooth_reading.hpp"
 
@@ -98,6 +99,28 @@ std::vector<preparation::RestingRows> resting_rows(const DwellSearch& search) {
   return rests;
 }
 
+/// The first samples of a gyro that lie off those around them, alone, and how many there are.
+void remark_lone_samples(const Signals& signals, const Recording& recording,
+                         std::vector<std::string>& remarks) {
+  constexpr std::size_t most_said = 3;
+  const std::vector<LoneSample> all = lone_gyro_samples(signals);
+  for (std::size_t k = 0; k < std::min(all.size(), most_said); ++k) {
+    const LoneSample& s = all[k];
+    const std::string line = s.sample < recording.lines.size()
+                                 ? fmt::format(" (line {})", recording.lines[s.sample])
+                                 : "";
+    remarks.push_back(fmt::format(
+        "gyro_{} at {:.6g} s{} lies {:.3g} deg/s off the samples around it, alone, as a motion "
+        "does "
+        "not: it turns the attitude by {:.2g} deg. If it is wrong, leave its cell empty",
+        "xyz"[s.axis], signals.time[s.sample], line, std::abs(s.off) / detail::deg,
+        std::abs(s.turns) / detail::deg));
+  }
+  if (all.size() > most_said)
+    remarks.push_back(fmt::format("{} more samples of gyros lie off those around them, alone",
+                                  all.size() - most_said));
+}
+
 bool levelled_by_calibrated(const CaseStudy& of) {
   return of.start[TermLibrary::index("K0_x")] != 0.0;
 }
@@ -137,6 +160,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
       !wrong.empty())
     throw InputError(ExitCode::recording, wrong);
   require_gyro_unit(signals, out.search.dwells, out.source);
+  remark_lone_samples(signals, recording, out.remarks);
   out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.
   constexpr int rounds = 3;

@@ -13,7 +13,7 @@ namespace drift::strapdown {
 /// A recording of sensors on a case, made ready as a test of a platform (case_test.hpp).
 struct CaseStudy {
   std::string source;
-  std::vector<std::string> remarks;  ///< what of the recording is left out
+  std::vector<std::string> remarks;  ///< what of the recording is left out, or looks wrong
   double static_min = 0.0;           ///< shortest dwell that counts [s]
   DwellSearch search;
   Gyrocompass compass;

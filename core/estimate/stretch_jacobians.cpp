@@ -13,7 +13,10 @@ bool alike(const Interval& a, const Interval& b) {
 }  // namespace
 
 /// Whether a's last node is b's first: all that the terms see there is the same.
-bool StretchJacobians::shared(const Interval& a, const Interval& b) const {
+bool StretchJacobians::shared(const Interval& a, const Interval& b,
+                              const MemoryRecord* memory) const {
+  const MemoryPoint* left = memory ? memory->points(b) : nullptr;
+  if (left && left->value != memory->points(a)[2 * (a.node_count() - 1)].value) return false;
   return !b.cage && alike(a, b) &&
          timeline_.nodes[a.last_node()].omega_ic_l == timeline_.nodes[b.first_node].omega_ic_l &&
          (attitude_alone_ || moment_at(timeline_, a, a.t1) == moment_at(timeline_, b, b.t0));
@@ -39,7 +42,7 @@ void StretchJacobians::evaluate(std::size_t first, std::size_t end, const Vec3* 
     const Interval* before = i > first ? &timeline_.intervals[i - 1] : nullptr;
     if (before && !alike(*before, interval)) work_out();
     const Node* nodes = &timeline_.nodes[interval.first_node];
-    const std::size_t begin = before && shared(*before, interval) ? 1 : 0;
+    const std::size_t begin = before && shared(*before, interval, memory) ? 1 : 0;
     const MemoryPoint* left = memory ? memory->points(interval) : nullptr;
     offset_.push_back(done + waiting - begin);
     for (std::size_t k = begin; k < interval.node_count(); ++k) {

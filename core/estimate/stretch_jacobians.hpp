@@ -23,7 +23,7 @@ class StretchJacobians {
   const NodeJacobian* of(std::size_t i) const { return &all_[offset_[i - first_]]; }
 
  private:
-  bool shared(const Interval& a, const Interval& b) const;
+  bool shared(const Interval& a, const Interval& b, const MemoryRecord* memory) const;
 
   const Timeline& timeline_;
   Mounting mounting_;

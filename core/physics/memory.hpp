@@ -34,6 +34,16 @@ S dahl(const S& torque, double turned, const S& x_d) {
   return sign + (torque - sign) * exp(-std::abs(turned) / x_d);
 }
 
+/// The mean of that friction over a turn at an even rate, from `torque` on: exact.
+template <class S>
+S dahl_mean(const S& torque, double turned, const S& x_d) {
+  using std::exp;
+  const double x = std::abs(turned);
+  if (x == 0.0) return torque;
+  const double sign = turned > 0.0 ? 1.0 : -1.0;
+  return sign + (torque - sign) * (1.0 - exp(-x / x_d)) * x_d / x;
+}
+
 /// The turn over which friction builds up, which a filter's step cannot make zero or negative
 /// [rad].
 template <class S>

@@ -33,7 +33,10 @@ enum class Subsystem {
 /// `memory` of states with
 ///   start(PathStep, p, m)    what they are when a test begins; the step has no length
 ///   advance(PathStep, p, m)  their exact change over a step of the nominal path
-/// that are handed to the hooks after the parameters. Memory depends on at most one parameter of
+/// that are handed to the hooks after the parameters. Where they may change within a step, and act
+/// on the rates, it declares
+///   mean(PathStep, p, m, mean)  their mean over the step that begins with m
+/// and steps integrate them exactly (MemoryPath). Memory depends on at most one parameter of
 /// the term, number `memory_parameter`.
 ///
 /// A term that follows the temperature in ways which a thermostat leaves nothing of may declare
@@ -57,6 +60,13 @@ constexpr int memory_of() {
     return T::memory;
   else
     return 0;
+}
+/// Whether a term tells the means of its memory.
+template <class T>
+constexpr bool tells_means() {
+  return requires(const PathStep& along, const double* p, double* mean) {
+    T::mean(along, p, p, mean);
+  };
 }
 template <class T>
 constexpr bool wants_swing() {

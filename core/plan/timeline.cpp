@@ -101,8 +101,12 @@ void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longe
       R_lr = R_lp[i.chain];
       t_cage = i.t0;
     }
-    const double turned =
+    double turned =
         i.rest ? 0.0 : (i.omega_cmd_p - R_lr.transpose() * omega_ie_l).norm() * i.length();
+    // What follows a gimbal's angle is a sine of it: of steps of a quarter of a radian Simpson's
+    // rule is off by 2e-5, where the attitude is integrated to far less than it is known.
+    constexpr double of_the_case = 0.2;
+    turned = std::max(turned, of_the_case * std::abs(i.heading1 - i.heading0));
     // By twos, for the rule of the higher order, which may take longer ones.
     if (turned > i.substeps * longest_step)
       i.substeps =

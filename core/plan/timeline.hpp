@@ -38,8 +38,9 @@ struct Interval {
   double samples = 1.0;   ///< of the plan, averaged by the accelerometers: less noise by its root
   double readings = 1.0;  ///< of the gimbals that its angles are worth, likewise
   std::optional<CaseTurn> turn;  ///< of a case whose accelerometers are read while it turns
+  bool fine = false;             ///< its steps are as fine as a study's own term asks for
   std::size_t first_node = 0;    ///< nodes first_node .. first_node + 2 substeps
-  int substeps = 1;              ///< steps of two nodes each, at most 0.05 rad of attitude long
+  int substeps = 1;              ///< steps of two nodes each (place_nodes())
 
   double length() const { return t1 - t0; }
   /// 1 sigma of the accelerometers' means, `of_a_sample` declared for one sample of the plan.
@@ -109,9 +110,9 @@ Timeline lay_out(const TestPlan& plan, const Site& site);
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site);
 
 /// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain;
-/// longest_step: attitude change between the end points of Simpson's rule [rad]; Boole's goes over
-/// twice as much. An interval that has more substeps keeps them. The clocks follow from `begins`,
-/// which the first interval has in any case.
+/// longest_step: attitude change between the end points of Simpson's rule [rad], of which a turn of
+/// the case counts a fifth; Boole's goes over twice as much. An interval that has more substeps
+/// keeps them. The clocks follow from `begins`, which the first interval has in any case.
 void place_nodes(Timeline& timeline, const std::vector<Mat3>& R_lp, double longest_step = 0.05);
 
 }  // namespace drift

@@ -68,6 +68,48 @@ void change_memory(Change change, const TermMask& terms, const PathStep& along, 
   });
 }
 
+/// Calls visit(number) for the memory of each term that tells means.
+template <class Visit>
+void for_each_mean(const TermMask& terms, Visit&& visit) {
+  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
+    if constexpr (tells_means<T>())
+      for (int k = info.first_memory; k < info.first_memory + info.memory; ++k)
+        visit(static_cast<std::size_t>(k));
+  });
+}
+
+bool tell_means(const TermMask& terms) {
+  bool any = false;
+  for_each_mean(terms, [&](std::size_t) { any = true; });
+  return any;
+}
+
+/// The means over a step that begins with `from`, of the terms that tell them.
+MemoryPoint means_along(const TermMask& terms, const PathStep& along, const double* theta,
+                        const MemoryPoint& from) {
+  using D = Dual<1>;
+  MemoryPoint means;
+  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
+    if constexpr (tells_means<T>()) {
+      std::array<D, T::params.size()> p;
+      for (std::size_t k = 0; k < p.size(); ++k) p[k] = D(theta[info.first + k]);
+      p[T::memory_parameter].d[0] = 1.0;
+      std::array<D, T::memory> m, mean;
+      const auto first = static_cast<std::size_t>(info.first_memory);
+      for (std::size_t k = 0; k < m.size(); ++k) {
+        m[k].v = from.value[first + k];
+        m[k].d[0] = from.derivative[first + k];
+      }
+      T::mean(along, p.data(), m.data(), mean.data());
+      for (std::size_t k = 0; k < m.size(); ++k) {
+        means.value[first + k] = mean[k].v;
+        means.derivative[first + k] = mean[k].d[0];
+      }
+    }
+  });
+  return means;
+}
+
 }  // namespace
 
 MemoryPath::MemoryPath(const Timeline& timeline, const DriftModel& model)
@@ -91,18 +133,47 @@ void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* p
     change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()),
                   theta, m);
   }
+  const bool means = tell_means(terms_);
   points_.assign(2 * nodes - 1, m);
+  means_.resize(means ? points_.size() : 0);
   for (std::size_t k = 1; k < points_.size(); ++k) {
     const PathPoint next =
         path_point(attitude_at(first, phi, k),
                    heading_at(interval, interval.t0 + half * static_cast<double>(k)), gimbals);
-    change_memory(Change::advance, terms_, between(here, next, half, interval.omega_cmd_p), theta,
-                  m);
+    const PathStep along = between(here, next, half, interval.omega_cmd_p);
+    if (means) means_[k] = means_along(terms_, along, theta, m);
+    change_memory(Change::advance, terms_, along, theta, m);
     points_[k] = m;
     here = next;
   }
   gimbal_ = here.gimbal;
   t_ = interval.t1;
+  if (means) integrate_exactly();
+}
+
+void MemoryPath::integrate_exactly() {
+  exact_ = points_;
+  const auto both = [&](std::size_t m, auto&& change) {
+    change([m](MemoryPoint& p) -> double& { return p.value[m]; });
+    change([m](MemoryPoint& p) -> double& { return p.derivative[m]; });
+  };
+  for_each_mean(terms_, [&](std::size_t m) {
+    both(m, [&](auto&& of) {
+      // Two steps at a time, of two points each; their means from those of half a step.
+      for (std::size_t k = 0; k + 4 < points_.size(); k += 4) {
+        MemoryPoint* at = &points_[k];
+        MemoryPoint* mean = &means_[k];
+        const double first = 0.5 * (of(mean[1]) + of(mean[2])),
+                     second = 0.5 * (of(mean[3]) + of(mean[4]));
+        // The rules 5/12, 8/12, -1/12 of the first and 1/3, 4/3, 1/3 of both, solved for the nodes
+        // that no step before them shares.
+        if (k == 0) of(at[0]) = 2.0 * (first - second) + of(at[4]);
+        of(at[2]) = 0.25 * (3.0 * (first + second) - of(at[0]) - of(at[4]));
+        of(at[1]) = 0.25 * (6.0 * first - of(at[0]) - of(at[2]));
+        of(at[3]) = 0.25 * (6.0 * second - of(at[2]) - of(at[4]));
+      }
+    });
+  });
 }
 
 void MemoryPath::shift(const double* theta_old, const double* theta_new) {
@@ -111,7 +182,7 @@ void MemoryPath::shift(const double* theta_old, const double* theta_new) {
     const std::size_t p = info.first + T::memory_parameter;
     const double change = theta_new[p] - theta_old[p];
     if (change == 0.0) return;
-    for (MemoryPoint& m : points_)
+    for (MemoryPoint& m : points_)  // and not exact_, which is what MemoryRecord reads
       for (int k = info.first_memory; k < info.first_memory + info.memory; ++k)
         m.value[static_cast<std::size_t>(k)] += change * m.derivative[static_cast<std::size_t>(k)];
   });
@@ -124,16 +195,19 @@ void MemoryRecord::trace(const double* theta) {
   if (!path_ || !path_->active()) return;
   theta_ = Eigen::Map<const Theta>(theta);
   points_.resize(2 * timeline_->nodes.size());
+  at_nodes_.resize(timeline_->nodes.size());
   for (std::size_t i = 0; i < timeline_->intervals.size(); ++i) {
     const Interval& interval = timeline_->intervals[i];
     path_->advance(i, theta);
     std::copy_n(path_->points(), 2 * interval.node_count() - 1, &points_[2 * interval.first_node]);
+    for (std::size_t k = 0; k < interval.node_count(); ++k)
+      at_nodes_[interval.first_node + k] = path_->itself()[2 * k];
   }
 }
 
 MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& interval,
                                   double t) const {
-  DRIFT_DEMAND(points_.size() >= 2 * timeline.nodes.size());
+  DRIFT_DEMAND(at_nodes_.size() >= timeline.nodes.size());
   const double step = interval.length() / (2.0 * interval.substeps);
   const double k = std::floor((t - interval.t0) / step);
   const auto from =
@@ -142,7 +216,7 @@ MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& inte
   const Node& node = timeline.nodes[from];
   const bool gimbals = TermLibrary::needs(terms_).gimbals;
   const Mat3 R_lr = reference_attitude(timeline.site, node.R_lr, interval.omega_cmd_p, t - node.t);
-  MemoryPoint m = points_[2 * from];
+  MemoryPoint m = at_nodes_[from];
   change_memory(
       Change::advance, terms_,
       between(path_point(node.R_lr, heading_at(interval, node.t), gimbals),

@@ -32,8 +32,12 @@ class MemoryPath {
   /// The same along another path: phi at the nodes of the interval [rad]; null: the nominal one.
   void advance_along(std::size_t i, const double* theta, const Vec3* phi);
   /// Of the interval: number 2 k is the memory at its node k, number 2 k + 1 half way to the next.
-  /// Null where the model has none.
+  /// Null where the model has none. Of a term that tells means, nodes but the even ones after the
+  /// first and what is half way are what makes the rules of a step (Simpson's) and of two
+  /// (propagate_sensitivity) exact for the memory, however fast it changes within them.
   const MemoryPoint* points() const { return active_ ? points_.data() : nullptr; }
+  /// The memory itself, likewise numbered.
+  const MemoryPoint* itself() const { return exact_.empty() ? points() : exact_.data(); }
   /// As if the parameters had differed by theta_new - theta_old all along, to first order.
   void shift(const double* theta_old, const double* theta_new);
 
@@ -44,6 +48,10 @@ class MemoryPath {
   Vec3 gimbal_ = Vec3::Zero();  ///< where the path was last
   double t_ = 0.0;
   std::vector<MemoryPoint> points_;
+  std::vector<MemoryPoint> exact_;  ///< empty where points_ are
+  std::vector<MemoryPoint> means_;  ///< over what lies before each point
+
+  void integrate_exactly();
 };
 
 /// The memory of a whole timeline, for whoever jumps about in it.
@@ -68,6 +76,7 @@ class MemoryRecord {
   std::optional<MemoryPath> path_;
   Theta theta_;
   std::vector<MemoryPoint> points_;
+  std::vector<MemoryPoint> at_nodes_;  ///< the memory itself
 };
 
 }  // namespace drift

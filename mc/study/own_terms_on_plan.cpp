@@ -8,6 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/physics/own/own_terms.hpp"
 #include "core/sim/own_term_gaps.hpp"
+#include "core/sim/own_term_steps.hpp"
 #include "mc/study/place_of.hpp"
 
 namespace drift::mc {
@@ -26,6 +27,32 @@ BrokenTerm told(const OwnTermGap& gap) {
                       gap.position + 1)};
 }
 
+BrokenTerm told(const UnresolvedOwnTerm& term) {
+  return {
+      fmt::format("term.{}.equation", term.own),
+      fmt::format("term '{}' changes too fast for rows of {:.6g} s: its means over them would be "
+                  "off by {:.0f} % (expected at most 5 %). Take shorter rows (plan.sample), or "
+                  "leave out what averages out within one",
+                  own_terms().terms[term.own].key, term.longest_row, 100.0 * term.off)};
+}
+
+std::vector<const ModelSpec*> models_of(const Study& study) {
+  std::vector<const ModelSpec*> models;
+  if (study.has_truth) models.push_back(&study.truth);
+  for (const FilterSpec& filter : study.filters) models.push_back(&filter);
+  return models;
+}
+
+std::vector<BrokenTerm> too_fast_own_terms(const std::vector<const ModelSpec*>& models,
+                                           const Timeline& timeline) {
+  std::vector<BrokenTerm> broken;
+  std::set<std::size_t> seen;
+  for (const ModelSpec* model : models)
+    for (const UnresolvedOwnTerm& term : unresolved_own_terms(timeline, *model))
+      if (seen.insert(term.own).second) broken.push_back(told(term));
+  return broken;
+}
+
 }  // namespace
 
 std::vector<BrokenTerm> broken_own_terms(const Study& study,
@@ -40,14 +67,13 @@ std::vector<BrokenTerm> broken_own_terms(const Study& study,
   for (const ModelSpec* model : models)
     for (const OwnTermGap& gap : own_term_gaps(timeline, *model))
       if (seen.insert(gap.own).second) broken.push_back(told(gap));
-  return broken;
+  if (!broken.empty()) return broken;
+  for (const ModelSpec* model : models) drift::resolve_own_terms(timeline, *model);
+  return too_fast_own_terms(models, timeline);
 }
 
 std::vector<BrokenTerm> broken_own_terms(const Study& study) {
-  std::vector<const ModelSpec*> models;
-  if (study.has_truth) models.push_back(&study.truth);
-  for (const FilterSpec& filter : study.filters) models.push_back(&filter);
-  return broken_own_terms(study, models, study.environment);
+  return broken_own_terms(study, models_of(study), study.environment);
 }
 
 void require_none(const Study& study, const std::vector<BrokenTerm>& broken) {
@@ -55,6 +81,12 @@ void require_none(const Study& study, const std::vector<BrokenTerm>& broken) {
   for (const BrokenTerm& term : broken)
     messages.push_back(fmt::format("{}: {}", place_of(study, term.key), term.what));
   if (!messages.empty()) throw InputError(ExitCode::config, std::move(messages));
+}
+
+void resolve_own_terms(Timeline& timeline, const Study& study) {
+  const std::vector<const ModelSpec*> models = models_of(study);
+  for (const ModelSpec* model : models) drift::resolve_own_terms(timeline, *model);
+  require_none(study, too_fast_own_terms(models, timeline));
 }
 
 }  // namespace drift::mc

@@ -6,6 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
+#include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/study_worker.hpp"
 #include "mc/task/unmodelled.hpp"
@@ -49,6 +50,7 @@ StudyTask::StudyTask(Study study)
       named_(layout_.named()) {
   set_loop(timeline_, study_.truth);
   set_environment(timeline_, study_.environment, study_.monte_carlo.seed, 0);
+  resolve_own_terms(timeline_, study_);
   require_simulable_models(study_);
 }
 

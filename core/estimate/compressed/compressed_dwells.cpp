@@ -10,12 +10,13 @@
 namespace drift {
 namespace {
 
-/// Whether two neighbours belong to one stretch: attitude, command and case go on as they were.
+/// Whether two neighbours belong to one stretch: attitude, command and case go on as they were, and
+/// nothing changes within them that few nodes would not see.
 bool go_on(const Timeline& timeline, const Interval& a, const Interval& b) {
   const auto still = [](const Interval& i) { return i.heading0 == i.heading1 && !i.rest; };
-  return !b.cage && a.chain == b.chain && a.position == b.position && a.slew == b.slew &&
-         a.t1 == b.t0 && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop && still(a) &&
-         still(b) && a.heading0 == b.heading0 &&
+  return !a.fine && !b.fine && !b.cage && a.chain == b.chain && a.position == b.position &&
+         a.slew == b.slew && a.t1 == b.t0 && a.omega_cmd_p == b.omega_cmd_p && a.loop == b.loop &&
+         still(a) && still(b) && a.heading0 == b.heading0 &&
          timeline.nodes[a.first_node].omega_ic_l == timeline.nodes[b.first_node].omega_ic_l;
 }
 

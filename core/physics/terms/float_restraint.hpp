@@ -6,7 +6,7 @@ namespace drift::terms {
 
 /// An elastic restraint of the floats (pigtails) turns what hangs the platform off into drift,
 /// k_f theta / H: here the friction of the gimbals, with the memory that `stiction` has. A reversal
-/// is over in seconds; fixed steps see it to within P times a sixth of a step, 0.2 arcsec.
+/// is over in seconds and steps take minutes, hence `mean`.
 struct FloatRestraint : GimbalFriction {
   static constexpr std::string_view key = "float_restraint";
   static constexpr std::string_view title = "elastic restraint of the floats under gimbal friction";
@@ -20,6 +20,10 @@ struct FloatRestraint : GimbalFriction {
       profiled<"P_turn">(ParamKind::nonlinear, unit::arcsec, 40.0, {10.0, 40.0, 150.0},
                          "turn over which friction builds up"));
 
+  template <class S>
+  static void mean(const PathStep& along, const S* p, const S* T, S* mean) {
+    for (int k = 0; k < 3; ++k) mean[k] = dahl_mean(T[k], along.turned[k], friction_turn(p[3]));
+  }
   template <class S>
   static void rates(const Inputs<S>& in, const S* p, const S* T, RateAssembly<S>& out) {
     take_off(in, p, T, out.omega_ip_p);

@@ -1,0 +1,129 @@
+#include "core/sim/own_term_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/measurements.hpp"
+#include "core/sim/own_course.hpp"
+
+namespace drift {
+namespace {
+
+/// An own term within a row: between its nodes all that it reads is linear.
+class RowCourse {
+ public:
+  RowCourse(const OwnCourse& course, const Timeline& timeline, const Interval& row)
+      : course_(course) {
+    for (std::size_t k = 0; k < row.node_count(); ++k)
+      nodes_.push_back(course.reading(timeline, row, timeline.nodes[row.first_node + k]));
+    for (const std::size_t i : course.inputs())
+      if (i < own_inputs.size() && own_inputs[i].needs.gimbals)
+        for (std::size_t k = 1; k < nodes_.size(); ++k)  // on from the other end of the circle
+          nodes_[k][i] = nodes_[k - 1][i] + angle_difference(nodes_[k][i], nodes_[k - 1][i]);
+  }
+
+  double at(double share) const {
+    const double k = share * static_cast<double>(nodes_.size() - 1);
+    const auto before = std::min(static_cast<std::size_t>(k), nodes_.size() - 2);
+    const double on = k - static_cast<double>(before);
+    return course_.evaluated<double>([&](std::size_t i) {
+      return nodes_[before][i] + on * (nodes_[before + 1][i] - nodes_[before][i]);
+    });
+  }
+  double largest() const {
+    double most = 0.0;
+    for (int k = 0; k < samples; ++k) most = std::max(most, std::abs(at((k + 0.5) / samples)));
+    return most;
+  }
+
+  /// The mean over the row by the rule of the readings, or of the integrals of what drives the
+  /// platform: Simpson's.
+  enum class Rule { readings, integrals };
+  double mean(Rule rule, int substeps) const {
+    const std::size_t last = 2 * static_cast<std::size_t>(substeps);
+    double sum = 0.0;
+    for (std::size_t k = 0; k <= last; ++k) {
+      const double simpson = k == 0 || k == last ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+      sum += (rule == Rule::readings ? Timeline::mean_weight(substeps, k)
+                                     : simpson / (3.0 * static_cast<double>(last))) *
+             at(static_cast<double>(k) / static_cast<double>(last));
+    }
+    return sum;
+  }
+  /// By steps so fine, and so odd, that what repeats with a row's steps does not with these.
+  double true_mean() const { return mean(Rule::integrals, samples); }
+  double mean_square() const {
+    double sum = 0.0;
+    for (int k = 0; k < samples; ++k) sum += std::pow(at((k + 0.5) / samples), 2) / samples;
+    return sum;
+  }
+  double error(int substeps) const {
+    const double truth = true_mean();
+    return std::max(std::abs(mean(Rule::readings, substeps) - truth),
+                    std::abs(mean(Rule::integrals, substeps) - truth));
+  }
+
+ private:
+  static constexpr int samples = 97;
+  const OwnCourse& course_;
+  std::vector<OwnCourse::Reading> nodes_;
+};
+
+/// Whether steps matter: an angle is read at the end of a row.
+bool has_means(std::size_t own) {
+  return own_terms().terms[own].target.slot != OwnSlot::gimbal;
+}
+
+}  // namespace
+
+void resolve_own_terms(Timeline& timeline, const ModelSpec& model) {
+  constexpr double tolerance = 1e-3;
+  constexpr int most_substeps = 32;
+  bool finer = false;
+  std::vector<int> substeps;
+  for (const Interval& i : timeline.intervals) substeps.push_back(i.substeps);
+  for_each_own(timeline, model, [&](std::size_t own, const OwnCourse& course) {
+    if (!has_means(own)) return;
+    double largest = 0.0;
+    for (const Interval& i : timeline.intervals)
+      largest = std::max(largest, RowCourse(course, timeline, i).largest());
+    for (std::size_t n = 0; n < timeline.intervals.size(); ++n) {
+      Interval& i = timeline.intervals[n];
+      const RowCourse row(course, timeline, i);
+      while (2 * substeps[n] <= most_substeps && row.error(substeps[n]) > tolerance * largest) {
+        substeps[n] *= 2;
+        i.fine = finer = true;
+      }
+    }
+  });
+  if (!finer) return;
+  std::vector<Mat3> R_lp(static_cast<std::size_t>(timeline.chains));
+  for (const Interval& i : timeline.intervals)
+    if (i.cage) R_lp[static_cast<std::size_t>(i.chain)] = timeline.nodes[i.first_node].R_lr;
+  for (std::size_t n = 0; n < substeps.size(); ++n) timeline.intervals[n].substeps = substeps[n];
+  place_nodes(timeline, R_lp);
+}
+
+std::vector<UnresolvedOwnTerm> unresolved_own_terms(const Timeline& timeline,
+                                                    const ModelSpec& model) {
+  constexpr double too_far_off = 0.05;
+  std::vector<UnresolvedOwnTerm> all;
+  const TermMask terms = model.model().terms;
+  for_each_own(timeline, model, [&](std::size_t own, const OwnCourse& course) {
+    if (!terms[TermLibrary::num_known + own] || !has_means(own)) return;
+    double errors = 0.0, values = 0.0;  // sums of squares
+    UnresolvedOwnTerm one{own};
+    for (const Interval& i : timeline.intervals) {
+      const RowCourse row(course, timeline, i);
+      const double error = row.error(i.substeps);
+      errors += error * error;
+      values += row.mean_square();
+      one.longest_row = std::max(one.longest_row, i.length());
+    }
+    one.off = std::sqrt(errors / values);
+    if (one.off > too_far_off) all.push_back(one);
+  });
+  return all;
+}
+
+}  // namespace drift

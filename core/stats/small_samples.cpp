@@ -1,0 +1,17 @@
+#include "core/stats/small_samples.hpp"
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace drift::stats {
+
+double beyond_t(double t, double dof) {
+  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(dof), std::abs(t)));
+}
+
+double beyond_f(double f, double dof_above, double dof_below) {
+  return boost::math::cdf(boost::math::complement(boost::math::fisher_f(dof_above, dof_below), f));
+}
+
+}  // namespace drift::stats

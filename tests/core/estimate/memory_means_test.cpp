@@ -1,0 +1,150 @@
+// Memory that changes within a step, where it drives the platform.
+#include <gtest/gtest.h>
+
+#include "core/estimate/linearize.hpp"
+#include "core/estimate/stretch_jacobians.hpp"
+#include "tests/support/model_builders.hpp"
+
+namespace drift::memory_means_test {
+namespace {
+
+using namespace drift::test;
+
+constexpr double row = 180.0, P = 0.03 * detail::deg / 3600.0;
+constexpr double turn = 40.0 * detail::deg / 3600.0;
+
+/// A test at a pole with rows of three minutes, x up: with no command the case turns about the
+/// platform's x with the Earth, which is a turn of the middle gimbal alone; twice the Earth's rate
+/// turns it the other way as fast.
+Timeline rows_at_a_pole(std::initializer_list<double> commands_in_earth_rates) {
+  Timeline timeline;
+  timeline.site = Site{90.0 * detail::deg};
+  timeline.chains = timeline.positions = 1;
+  double t = 0.0;
+  for (const double command : commands_in_earth_rates) {
+    Interval i;
+    i.t0 = t;
+    i.t1 = t += row;
+    i.cage = i.t0 == 0.0;
+    i.omega_cmd_p = Vec3(command * detail::earth_rate, 0.0, 0.0);
+    timeline.intervals.push_back(i);
+  }
+  std::string why;
+  place_nodes(timeline, {parse_axes("x=U y=N z=W", why).value()});
+  return timeline;
+}
+
+struct Restrained {
+  FilterSpec filter;
+  Theta theta = Theta::Zero();
+  Layout layout;
+  Restrained() {
+    filter.coupling = Coupling::eq6;
+    filter.active = TermLibrary::completed(only({"P_middle", "P_turn"}));
+    for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+      if (filter.active[i]) theta[i] = TermLibrary::specs[i].prior_si().mean();
+    theta[param("P_middle")] = P;
+    theta[param("P_turn")] = turn;
+    layout = make_layout(filter);
+  }
+  Eigen::Index column(std::string_view key) const {
+    const auto at = std::ranges::find(layout.params, param(key)) - layout.params.begin();
+    return static_cast<Eigen::Index>(at);
+  }
+};
+
+/// Integral of the friction over a row in which the gimbal turns by x at an even rate, and the
+/// friction at its end; derivatives by the turn over which it builds up, in d.
+struct Row {
+  Dual<1> integral, end;
+};
+Row integral_of_row(const Dual<1>& begin, double x) {
+  Dual<1> x_d(turn);
+  x_d.d[0] = 1.0;
+  const double sign = x > 0.0 ? 1.0 : -1.0;
+  const Dual<1> end = sign + (begin - sign) * exp(-std::abs(x) / x_d);
+  // dT/dx = (sign - T) / x_d, integrated over the row.
+  return {row * (sign - sign * x_d * (end - begin) / x), end};
+}
+
+TEST(MemoryMeans, AReversalOfSecondsIsIntegratedExactlyInStepsOfMinutes) {
+  // Friction is over in 40 arcsec / 15 arcsec/s; the steps are of 90 s. Free, stopped, reversed.
+  const Timeline timeline = rows_at_a_pole({0.0, 1.0, 2.0, 2.0, 0.0});
+  const Restrained m;
+  const DriftModel model = m.filter.model();
+  const Trajectory phi = integrate_fixed(timeline, model, m.theta, {Vec3::Zero()});
+  Linearizer linearizer(model, m.layout, {});
+  linearizer.set_theta(m.theta);
+  MemoryRecord memory(timeline, model);
+  memory.trace(m.theta.data());
+  StretchJacobians together(timeline, model);
+  together.evaluate(0, timeline.intervals.size(), phi.data(), linearizer, &memory);
+  const double sigma = m.layout.sigma[m.column("P_middle")],
+               sigma_turn = m.layout.sigma[m.column("P_turn")];
+  const double x = detail::earth_rate * row;
+  const std::array turned{-x, 0.0, x, x, -x};
+  Dual<1> T(0.0);
+  double angle = 0.0, facing = 0.0;  // of the gimbal's axis along x
+  IntervalSensitivity alone, shared;
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+    SCOPED_TRACE(i);
+    const Interval& interval = timeline.intervals[i];
+    Row now{row * T, T};
+    if (turned[i] != 0.0) now = integral_of_row(T, turned[i]);
+    T = now.end;
+    const double change = phi[interval.last_node()].x() - phi[interval.first_node].x();
+    if (i == 0) facing = change * now.integral.v < 0.0 ? 1.0 : -1.0;
+    angle += -facing * P * now.integral.v;
+    // What the nominal path is turned by beside it, 1e-4 of a radian, comes back to second order.
+    EXPECT_NEAR(phi[interval.last_node()].x(), angle, 1e-9 * row * P);
+    EXPECT_LT(phi[interval.last_node()].tail<2>().norm(), 1e-9 * row * P);
+    linearize_interval(interval, timeline, Mat3::Zero(), &phi[interval.first_node],
+                       memory.points(interval), linearizer, alone);
+    propagate_sensitivity(interval, timeline, together.of(i), shared);
+    for (const IntervalSensitivity* s : {&alone, &shared}) {
+      const Rows3& G = s->G[interval.node_count() - 1];
+      EXPECT_NEAR(G.col(m.column("P_middle")).norm(), std::abs(sigma * now.integral.v),
+                  1e-9 * sigma * row);
+      EXPECT_NEAR(G.col(m.column("P_turn")).norm(), std::abs(sigma_turn * P * now.integral.d[0]),
+                  1e-9 * sigma_turn * P * row / turn);
+    }
+  }
+}
+
+TEST(MemoryMeans, OfFrictionAreThoseOfItsParts) {
+  const double begin = -0.7, a = 3e-5, b = 5e-5, x_d = 4e-5;
+  const double middle = dahl(begin, a, x_d);
+  EXPECT_NEAR((dahl_mean(begin, a, x_d) * a + dahl_mean(middle, b, x_d) * b) / (a + b),
+              dahl_mean(begin, a + b, x_d), 1e-15);
+  EXPECT_NEAR(dahl_mean(begin, -1e-9, x_d), begin, 1e-5);
+  EXPECT_EQ(dahl_mean(begin, 0.0, x_d), begin);
+}
+
+TEST(MemoryMeans, InPlansStepsOfMinutesAreAsGoodAsFineOnes) {
+  const Restrained m;
+  const DriftModel model = m.filter.model();
+  for (const auto& [preset, mode] : {std::pair{"slew12", CommandLaw::free},
+                                     {"slew12", CommandLaw::level},
+                                     {"casespin", CommandLaw::level}}) {
+    SCOPED_TRACE(preset);
+    const Timeline coarse = preset_timeline(preset, mode, 3600.0, row);
+    Timeline fine = coarse;
+    for (Interval& i : fine.intervals) i.substeps = std::max(i.substeps, 64);
+    std::vector<Mat3> R_lp;
+    for (const Interval& i : coarse.intervals)
+      if (i.cage) R_lp.push_back(coarse.nodes[i.first_node].R_lr);
+    place_nodes(fine, R_lp);
+    const std::vector<Vec3> psi(R_lp.size(), Vec3::Zero());
+    const Trajectory a = integrate_fixed(coarse, model, m.theta, psi),
+                     b = integrate_fixed(fine, model, m.theta, psi);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < coarse.intervals.size(); ++i)
+      worst = std::max(
+          worst, (a[coarse.intervals[i].last_node()] - b[fine.intervals[i].last_node()]).norm());
+
+    EXPECT_LT(worst, 0.05 * arcsec);
+  }
+}
+
+}  // namespace
+}  // namespace drift::memory_means_test
