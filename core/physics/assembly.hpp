@@ -121,7 +121,10 @@ struct PathStep {
   Vec3 f0_p = Vec3::Zero();  ///< specific force at its ends, linear between [g]
   Vec3 f1_p = Vec3::Zero();
   Vec3 omega_cmd_p = Vec3::Zero();  ///< [rad/s]
-  Vec3 turned = Vec3::Zero();       ///< change of the gimbal angles, outer, middle, inner [rad]
+  /// Change of the gimbal angles, outer, middle, inner, until they reverse [rad] ...
+  Vec3 turned = Vec3::Zero();
+  Vec3 turned_back = Vec3::Zero();     ///< ... and from then on
+  Vec3 until_reversal = Vec3::Ones();  ///< part of dt; 1 where they do not
 };
 
 }  // namespace drift

@@ -21,7 +21,20 @@ struct GimbalFriction {
   }
   template <class S>
   static void advance(const PathStep& along, const S* p, S* T) {
-    for (int k = 0; k < 3; ++k) T[k] = dahl(T[k], along.turned[k], friction_turn(p[3]));
+    const S turn = friction_turn(p[3]);
+    for (int k = 0; k < 3; ++k)
+      T[k] = dahl(dahl(T[k], along.turned[k], turn), along.turned_back[k], turn);
+  }
+  /// Means over a step in which the gimbals turn at even rates, there and back.
+  template <class S>
+  static void means(const PathStep& along, const S* p, const S* T, S* mean) {
+    const S turn = friction_turn(p[3]);
+    for (int k = 0; k < 3; ++k) {
+      const double there = along.until_reversal[k];
+      mean[k] =
+          there * dahl_mean(T[k], along.turned[k], turn) +
+          (1.0 - there) * dahl_mean(dahl(T[k], along.turned[k], turn), along.turned_back[k], turn);
+    }
   }
   /// sum -= amplitude times friction along the axis of each gimbal, platform axes.
   template <class S>

@@ -13,13 +13,18 @@ namespace {
 /// A path at one instant.
 struct PathPoint {
   Vec3 f_p;
-  Vec3 gimbal = Vec3::Zero();  ///< where a term with memory sees the gimbals
+  Vec3 gimbal = Vec3::Zero();       ///< where a term with memory sees the gimbals
+  Vec3 gimbal_rate = Vec3::Zero();  ///< by the command alone [rad/s]
 };
 
-PathPoint path_point(const Mat3& R_lp, double heading, bool gimbals) {
+PathPoint path_point(const Mat3& R_lp, double heading, const Interval& interval,
+                     const Vec3& omega_ic_l, bool gimbals) {
   PathPoint p;
   p.f_p = R_lp.row(2);
-  if (gimbals) p.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * R_lp);
+  if (!gimbals) return p;
+  p.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * R_lp);
+  p.gimbal_rate =
+      gimbal_rates<double>(p.gimbal, interval.omega_cmd_p - R_lp.transpose() * omega_ic_l);
   return p;
 }
 
@@ -36,8 +41,19 @@ double heading_at(const Interval& interval, double t) {
 }
 
 PathStep between(const PathPoint& a, const PathPoint& b, double dt, const Vec3& omega_cmd_p) {
-  PathStep step{dt, a.f_p, b.f_p, omega_cmd_p, Vec3::Zero()};
-  for (int k = 0; k < 3; ++k) step.turned[k] = angle_difference(b.gimbal[k], a.gimbal[k]);
+  PathStep step{dt, a.f_p, b.f_p, omega_cmd_p};
+  for (int k = 0; k < 3; ++k) {
+    step.turned[k] = angle_difference(b.gimbal[k], a.gimbal[k]);
+    // A rate that changes its sign, evenly: a parabola there and back.
+    const double begin = a.gimbal_rate[k], end = b.gimbal_rate[k];
+    if (!(begin * end < 0.0)) continue;
+    const double until = begin / (begin - end);
+    const double there = 0.5 * begin * until * dt, back = step.turned[k] - there;
+    if (back * end <= 0.0) continue;
+    step.turned[k] = there;
+    step.turned_back[k] = back;
+    step.until_reversal[k] = until;
+  }
   return step;
 }
 
@@ -123,13 +139,14 @@ void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* p
   const std::size_t nodes = interval.node_count();
   const double half = 0.25 * interval.length() / interval.substeps;
   MemoryPoint m = interval.begins ? MemoryPoint{} : points_.back();
-  PathPoint here = path_point(attitude_at(first, phi, 0), interval.heading0, gimbals);
+  PathPoint here = path_point(attitude_at(first, phi, 0), interval.heading0, interval,
+                              first->omega_ic_l, gimbals);
   if (interval.begins) {
     change_memory(Change::start, terms_, between(here, here, 0.0, interval.omega_cmd_p), theta, m);
   } else if (interval.cage) {
     // On the way to a caged position nobody knows more than that the gimbals turned; the heat of
     // the new attitude acts for as long as it took.
-    const PathPoint before{here.f_p, gimbal_};
+    const PathPoint before{here.f_p, gimbal_, here.gimbal_rate};
     change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()),
                   theta, m);
   }
@@ -139,7 +156,8 @@ void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* p
   for (std::size_t k = 1; k < points_.size(); ++k) {
     const PathPoint next =
         path_point(attitude_at(first, phi, k),
-                   heading_at(interval, interval.t0 + half * static_cast<double>(k)), gimbals);
+                   heading_at(interval, interval.t0 + half * static_cast<double>(k)), interval,
+                   first->omega_ic_l, gimbals);
     const PathStep along = between(here, next, half, interval.omega_cmd_p);
     if (means) means_[k] = means_along(terms_, along, theta, m);
     change_memory(Change::advance, terms_, along, theta, m);
@@ -195,33 +213,35 @@ void MemoryRecord::trace(const double* theta) {
   if (!path_ || !path_->active()) return;
   theta_ = Eigen::Map<const Theta>(theta);
   points_.resize(2 * timeline_->nodes.size());
-  at_nodes_.resize(timeline_->nodes.size());
+  itself_.resize(points_.size());
   for (std::size_t i = 0; i < timeline_->intervals.size(); ++i) {
     const Interval& interval = timeline_->intervals[i];
     path_->advance(i, theta);
     std::copy_n(path_->points(), 2 * interval.node_count() - 1, &points_[2 * interval.first_node]);
-    for (std::size_t k = 0; k < interval.node_count(); ++k)
-      at_nodes_[interval.first_node + k] = path_->itself()[2 * k];
+    std::copy_n(path_->itself(), 2 * interval.node_count() - 1, &itself_[2 * interval.first_node]);
   }
 }
 
 MemoryPoint MemoryRecord::at_time(const Timeline& timeline, const Interval& interval,
                                   double t) const {
-  DRIFT_DEMAND(at_nodes_.size() >= timeline.nodes.size());
-  const double step = interval.length() / (2.0 * interval.substeps);
-  const double k = std::floor((t - interval.t0) / step);
-  const auto from =
-      interval.first_node +
-      static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(interval.node_count() - 1)));
-  const Node& node = timeline.nodes[from];
+  DRIFT_DEMAND(itself_.size() >= 2 * timeline.nodes.size());
+  const double half = 0.25 * interval.length() / interval.substeps;
+  const double k = std::floor((t - interval.t0) / half);
+  const auto from = static_cast<std::size_t>(
+      std::clamp(k, 0.0, 2.0 * static_cast<double>(interval.node_count() - 1)));
+  const Node* first = &timeline.nodes[interval.first_node];
+  const Node& node = first[from / 2];
+  const double t_from = interval.t0 + half * static_cast<double>(from);
   const bool gimbals = TermLibrary::needs(terms_).gimbals;
+  const auto at = [&](const Mat3& R_lr, double time) {
+    return path_point(R_lr, heading_at(interval, time), interval, first->omega_ic_l, gimbals);
+  };
   const Mat3 R_lr = reference_attitude(timeline.site, node.R_lr, interval.omega_cmd_p, t - node.t);
-  MemoryPoint m = at_nodes_[from];
-  change_memory(
-      Change::advance, terms_,
-      between(path_point(node.R_lr, heading_at(interval, node.t), gimbals),
-              path_point(R_lr, heading_at(interval, t), gimbals), t - node.t, interval.omega_cmd_p),
-      theta_.data(), m);
+  MemoryPoint m = itself_[2 * interval.first_node + from];
+  change_memory(Change::advance, terms_,
+                between(at(attitude_at(first, nullptr, from), t_from), at(R_lr, t), t - t_from,
+                        interval.omega_cmd_p),
+                theta_.data(), m);
   return m;
 }
 

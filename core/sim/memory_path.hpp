@@ -67,7 +67,7 @@ class MemoryRecord {
   const MemoryPoint* points(const Interval& interval) const {
     return points_.empty() ? nullptr : &points_[2 * interval.first_node];
   }
-  /// At any time of an interval: from the point before it on.
+  /// At any time of an interval: from the point before it on, as the path goes.
   MemoryPoint at_time(const Timeline& timeline, const Interval& interval, double t) const;
 
  private:
@@ -76,7 +76,7 @@ class MemoryRecord {
   std::optional<MemoryPath> path_;
   Theta theta_;
   std::vector<MemoryPoint> points_;
-  std::vector<MemoryPoint> at_nodes_;  ///< the memory itself
+  std::vector<MemoryPoint> itself_;  ///< likewise numbered
 };
 
 }  // namespace drift

@@ -1,5 +1,8 @@
 #include "core/sim/own_course.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/sim/kinematics.hpp"
 
 namespace drift {
@@ -11,6 +14,8 @@ OwnCourse::OwnCourse(std::size_t own, const ModelSpec& model)
     const Prior& prior = model.priors[first + i];
     const bool drawn = TermLibrary::specs[first + i].amplitude();
     params_[i] = prior.mean() + (drawn ? prior.sigma() : 0.0);
+    if (const double size = std::abs(params_[i]); drawn && size > 0.0)
+      amplitude_ = amplitude_ > 0.0 ? std::min(amplitude_, size) : size;
   }
   for (std::size_t k = 0; k < term_.program.size; ++k)
     if (term_.program.code[k].op == Operation::input)

@@ -32,6 +32,8 @@ class OwnCourse {
     return evaluate_program(term_.program, p.data(),
                             [&](int i) -> S { return input(static_cast<std::size_t>(i)); });
   }
+  /// The least of its amplitudes as they are here, SI; zero without any.
+  double amplitude() const { return amplitude_; }
   /// Numbers of what it reads.
   const std::vector<std::size_t>& inputs() const { return read_; }
 
@@ -39,6 +41,7 @@ class OwnCourse {
   const OwnTerm& term_;
   const Mounting& mounting_;
   std::array<double, most_own_parameters> params_{};
+  double amplitude_ = 0.0;
   std::vector<std::size_t> read_;
 };
 

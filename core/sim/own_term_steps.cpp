@@ -78,13 +78,15 @@ bool has_means(std::size_t own) {
 
 void resolve_own_terms(Timeline& timeline, const ModelSpec& model) {
   constexpr double tolerance = 1e-3;
+  constexpr double nothing =
+      1e-9;  // of an amplitude: what rounding leaves of a product that is zero
   constexpr int most_substeps = 32;
   bool finer = false;
   std::vector<int> substeps;
   for (const Interval& i : timeline.intervals) substeps.push_back(i.substeps);
   for_each_own(timeline, model, [&](std::size_t own, const OwnCourse& course) {
     if (!has_means(own)) return;
-    double largest = 0.0;
+    double largest = nothing / tolerance * course.amplitude();
     for (const Interval& i : timeline.intervals)
       largest = std::max(largest, RowCourse(course, timeline, i).largest());
     for (std::size_t n = 0; n < timeline.intervals.size(); ++n) {

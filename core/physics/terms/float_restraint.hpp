@@ -22,7 +22,7 @@ struct FloatRestraint : GimbalFriction {
 
   template <class S>
   static void mean(const PathStep& along, const S* p, const S* T, S* mean) {
-    for (int k = 0; k < 3; ++k) mean[k] = dahl_mean(T[k], along.turned[k], friction_turn(p[3]));
+    means(along, p, T, mean);
   }
   template <class S>
   static void rates(const Inputs<S>& in, const S* p, const S* T, RateAssembly<S>& out) {

@@ -89,7 +89,8 @@ TEST(OwnTermSteps, WhatIsSlowOrReadAtTheEndOfARowLeavesThemAsTheyAre) {
        {own_term("own", "rate.x", "A*sin(2*pi*t/P)",
                  "A = { unit = 'deg/h', prior = 0.02 }, P = { unit = 'min', value = 37 }"),
         own_term("own", "drift.y", "A*f_x*f_z", "A = { unit = 'deg/h/g^2', prior = 0.02 }"),
-        own_term("own", "gimbal.outer", "A*sin(t)", "A = { unit = 'arcsec', prior = 5 }")}) {
+        own_term("own", "gimbal.outer", "A*sin(t/P)",
+                 "A = { unit = 'arcsec', prior = 5 }, P = { unit = 's', value = 1 }")}) {
     const OwnTermsHeld held(terms);
     Timeline timeline = before;
     resolve_own_terms(timeline, own_model());
