@@ -49,9 +49,13 @@ void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader&
   results.study = study;
   results.points = mc::study_points(study);
   for (const mc::StudyPoint& p : results.points) results.statistics.emplace_back(p.study);
-  reader.each_result(work.stop_rules, [&](const mc::StoredBlock& b) {
-    results.statistics[b.block.point].add(b.block);
-  });
+  results.asked = reader.runs();
+  for (std::size_t p = 0; p < results.points.size(); ++p) {
+    mc::PointStatistics& here = results.statistics[p];
+    const bool by_rule = reader.each_result(work.stop_rules, p,
+                                            [&](const mc::StoredBlock& b) { here.add(b.block); });
+    if (!by_rule && here.runs() < results.asked) results.unfinished.push_back(p);
+  }
   for (const auto& [point, run] : report::runs_to_trace(results))
     results.traces.push_back({point, run, mc::trace_run(results.points[point].study, run)});
   results.information = report::information_section(results, 0);

@@ -26,7 +26,7 @@ double log_gain_of_misalignments(const Layout& layout, const Projector& projecto
     const VecX with_lambda = fit.covariance(rows, lambda);
     covariance -= with_lambda * with_lambda.transpose() / fit.covariance(lambda, lambda);
   }
-  return log_gain_of_sizes(fit.x(rows), covariance, std::vector<int>(rows.size(), 0));
+  return log_gain_of_sizes_made_small(fit.x(rows), covariance);
 }
 
 }  // namespace drift::inference

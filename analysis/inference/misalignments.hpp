@@ -9,7 +9,8 @@ namespace drift::inference {
 bool is_misalignment(std::size_t param);
 
 /// What it changes in the log evidence of a model that the size of the misalignments, all alike, is
-/// known to orders of magnitude only (size_prior.hpp): no more is known of it than of any effect.
+/// known to orders of magnitude only (size_prior.hpp): no more is known of it than of any effect,
+/// and less, as a unit that gives calibrated readings has none that a test would see.
 /// One equation shows misalignments that another one hides. Were they as large as their prior for
 /// certain, small ones would be a coincidence that speaks against the equation which shows them,
 /// and a well aligned platform would be taken for one that follows the other. Of a free lambda, at

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
@@ -70,6 +71,39 @@ class Rotated {
   VecX information_, y_;
 };
 
+double log_gain(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
+                const std::vector<double>& wide, std::span<const double> scales) {
+  if (x.size() == 0) return 0.0;
+  const MatX information = covariance.inverse();
+  const VecX pull = information * x;
+  const double unit = log_det(information);
+  const int causes = *std::max_element(cause.begin(), cause.end()) + 1;
+  const auto width = [&](std::size_t k) { return wide.empty() ? 1.0 : wide[k]; };
+  double far = 0.0;  // log of the shares of sizes as they are found
+  for (const double w : wide)
+    if (w > beyond) far += std::log(share_of_sizes(w));
+  std::vector<std::size_t> chosen(static_cast<std::size_t>(causes), 0);
+  std::vector<double> logs;
+  for (;;) {
+    MatX A = information;
+    double shrunk = 0.0;  // log of the priors' densities at zero, over the unit prior's
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const auto amplitude = static_cast<std::size_t>(k);
+      if (width(amplitude) > beyond) continue;
+      const double s =
+          scales[chosen[static_cast<std::size_t>(cause[amplitude])]] / width(amplitude);
+      A(k, k) += 1.0 / (s * s) - 1.0;
+      shrunk -= std::log(s);
+    }
+    // Of a Gaussian with information `information` about x, times the ratio of the priors.
+    logs.push_back(shrunk + 0.5 * (unit - log_det(A)) +
+                   0.5 * (pull.dot(Cholesky(A).solve(pull)) - x.dot(pull)));
+    std::size_t next = 0;
+    while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
+    if (next == chosen.size()) return log_mean_exp(logs) + far;
+  }
+}
+
 }  // namespace
 
 double share_of_sizes(double w) {
@@ -100,35 +134,17 @@ VisibleEvidence evidence_of_visible_sizes(const MatX& C, const VecX& g) {
 
 double log_gain_of_sizes(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
                          const std::vector<double>& wide) {
+  return log_gain(x, covariance, cause, wide, scales);
+}
+
+double log_gain_of_sizes_made_small(const VecX& x, const MatX& covariance) {
   if (x.size() == 0) return 0.0;
-  const MatX information = covariance.inverse();
-  const VecX pull = information * x;
-  const double unit = log_det(information);
-  const int causes = *std::max_element(cause.begin(), cause.end()) + 1;
-  const auto width = [&](std::size_t k) { return wide.empty() ? 1.0 : wide[k]; };
-  double far = 0.0;  // log of the shares of sizes as they are found
-  for (const double w : wide)
-    if (w > beyond) far += std::log(share_of_sizes(w));
-  std::vector<std::size_t> chosen(static_cast<std::size_t>(causes), 0);
-  std::vector<double> logs;
-  for (;;) {
-    MatX A = information;
-    double shrunk = 0.0;  // log of the priors' densities at zero, over the unit prior's
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const auto amplitude = static_cast<std::size_t>(k);
-      if (width(amplitude) > beyond) continue;
-      const double s =
-          scales[chosen[static_cast<std::size_t>(cause[amplitude])]] / width(amplitude);
-      A(k, k) += 1.0 / (s * s) - 1.0;
-      shrunk -= std::log(s);
-    }
-    // Of a Gaussian with information `information` about x, times the ratio of the priors.
-    logs.push_back(shrunk + 0.5 * (unit - log_det(A)) +
-                   0.5 * (pull.dot(Cholesky(A).solve(pull)) - x.dot(pull)));
-    std::size_t next = 0;
-    while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
-    if (next == chosen.size()) return log_mean_exp(logs) + far;
-  }
+  const double unseen = std::sqrt(eigensystem(covariance).values.minCoeff()) / 3.0;
+  std::vector<double> finer(scales.begin(), scales.end());
+  while (finer.back() > unseen && finer.back() > 1e-9)
+    finer.push_back(finer[finer.size() - 2] / 10.0);
+  return log_gain(x, covariance, std::vector<int>(static_cast<std::size_t>(x.size()), 0), {},
+                  finer);
 }
 
 double log_evidence_of_unknown_size(double T, int amplitudes) {

@@ -14,18 +14,33 @@ struct OfDataSheets {
 };
 
 constexpr double percent = 0.01, deg_per_s = detail::deg;
+constexpr double degrees = 30.0;  ///< half a data sheet's range of temperature
 
 constexpr OfDataSheets data_sheets[] = {
-    {"D_F", 20.0 * deg_per_s},  {"D_I", 0.1 * deg_per_s},
-    {"D_O", 0.1 * deg_per_s},   {"D_S", 0.1 * deg_per_s},
-    {"D_II", 0.01 * deg_per_s}, {"D_OO", 0.01 * deg_per_s},
-    {"D_SS", 0.01 * deg_per_s}, {"D_IO", 0.01 * deg_per_s},
-    {"D_IS", 0.01 * deg_per_s}, {"D_OS", 0.01 * deg_per_s},
-    {"s", 3.0 * percent},       {"eta", 2.0 * percent},
-    {"xi", 2.0 * percent},      {"K0", 0.1},
-    {"K1", 3.0 * percent},      {"K2", 0.5 * percent},
-    {"K3", 0.5 * percent},      {"K_ip", 0.5 * percent},
-    {"dP", 2.0 * percent},      {"dO", 2.0 * percent},
+    {"D_F", 20.0 * deg_per_s},
+    {"D_I", 0.1 * deg_per_s},
+    {"D_O", 0.1 * deg_per_s},
+    {"D_S", 0.1 * deg_per_s},
+    {"D_II", 0.01 * deg_per_s},
+    {"D_OO", 0.01 * deg_per_s},
+    {"D_SS", 0.01 * deg_per_s},
+    {"D_IO", 0.01 * deg_per_s},
+    {"D_IS", 0.01 * deg_per_s},
+    {"D_OS", 0.01 * deg_per_s},
+    {"s", 3.0 * percent},
+    {"eta", 2.0 * percent},
+    {"xi", 2.0 * percent},
+    {"K0", 0.1},
+    {"K1", 3.0 * percent},
+    {"K2", 0.5 * percent},
+    {"K3", 0.5 * percent},
+    {"K_ip", 0.5 * percent},
+    {"dP", 2.0 * percent},
+    {"dO", 2.0 * percent},
+    // 0.01 to 0.05 deg/s per degree; of higher orders as much at 30 degrees from the mean.
+    {"kT", 0.03 * deg_per_s},
+    {"kT2", 0.03 * deg_per_s / degrees},
+    {"kT3", 0.03 * deg_per_s / (degrees * degrees)},
 };
 
 bool same(const Prior& a, const Prior& b) {

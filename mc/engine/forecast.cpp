@@ -19,6 +19,10 @@ Forecast forecast(const StudyWork& work, const EngineOptions& options, const std
   const Listed listed = list_stored(reader, all, rules);
   found.stored = listed.runs;
   found.cut_short = listed.cut_short;
+  for (const BlockKey& key : reader.keys()) {
+    const std::uint64_t asked = options.runs - std::min(options.runs, key.first);
+    found.beyond += key.count - std::min<std::uint64_t>(key.count, asked);
+  }
   if (begun) found.asked_before = reader.runs();
   for (const std::uint64_t i : verify_stored(reader, all, rules, work.stop_rules).missing) {
     // Listed, and damaged: a session meets it when nothing else is missing.

@@ -159,6 +159,7 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
       v.runs += best->block.status.size();
       if (sample > 0.0) recompute(best->block);
     } else if (copies > 0) {
+      ++v.missing;
       v.damage.push_back(fmt::format("point {}, first run {}: damaged, and no other copy",
                                      wanted.point, wanted.first));
     } else if (!rule.enough(wanted.point)) {

@@ -27,7 +27,8 @@ Replay replay(const RunTask& task, StudyReader& reader, std::size_t point, std::
 
 /// What a check of a folder found.
 struct Verification {
-  std::size_t blocks = 0, copies = 0, missing = 0;
+  std::size_t blocks = 0, copies = 0;
+  std::size_t missing = 0;  ///< blocks that are not there, or damaged in every copy
   std::uint64_t runs = 0, recomputed = 0;
   std::vector<std::string> damage;  ///< results that are lost, or files whose structure is damaged
   std::vector<std::string> notes;   ///< damage of which an undamaged copy exists

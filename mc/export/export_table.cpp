@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "core/base/nan.hpp"
-#include "core/stats/normal.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/statistics/point_statistics.hpp"
 
@@ -48,12 +46,11 @@ struct Number {
 };
 
 std::vector<Number> rmse_of(const ErrorStatistics& e) {
-  const Estimated r = e.rmse_normal(stats::half_width_95);
-  const double unit = e.prior_sigma(),
-               known = e.runs() >= 2 ? 1.0 : nan_value;  // one run has no ends
+  const Estimated r = e.rmse();
+  const double unit = e.prior_sigma();
   return {{"rmse", "root mean square error over the prior sigma", r.value / unit},
-          {"rmse_low", "lower end of its 95 % interval", known * std::max(0.0, r.low / unit)},
-          {"rmse_high", "upper end", known * r.high / unit}};
+          {"rmse_low", "lower end of its 95 % interval, bootstrap", r.low / unit},
+          {"rmse_high", "upper end", r.high / unit}};
 }
 
 std::vector<Number> silent_of(const stats::Rate& silent, const char* about) {
@@ -81,7 +78,7 @@ std::vector<Number> numbers_of(const ErrorStatistics& e, const ParameterHealth& 
          "SI unit of the parameter"}},
        rmse_of(e),
        {{"bias", "mean error over the prior sigma", bias.value / unit},
-        {"bias_low", "lower end of its 95 % interval", bias.low / unit},
+        {"bias_low", "lower end of its 95 % interval, Student's t", bias.low / unit},
         {"bias_high", "upper end", bias.high / unit},
         {"learning_ratio", "root mean square reported sigma over the prior sigma", e.learning()},
         {"rank", "order of learning_ratio within the filter, 1 the best known", rank},
@@ -192,7 +189,7 @@ StatisticsTables::StatisticsTables(const std::vector<StudyPoint>& points)
     : tables_(std::make_unique<Tables>()) {
   Tables& t = *tables_;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    t.points.emplace_back(points[p].study, 0);
+    t.points.emplace_back(points[p].study);
     t.labels.push_back(points[p].label.empty() ? fmt::format("point_{}", p)
                                                : plain_name(points[p].label));
     for (const FilterStatistics& f : t.points.back().filters())

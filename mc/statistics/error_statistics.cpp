@@ -6,6 +6,7 @@
 
 #include "core/base/nan.hpp"
 #include "core/base/rng.hpp"
+#include "core/stats/student.hpp"
 
 namespace drift::mc {
 namespace {
@@ -50,12 +51,12 @@ void ErrorStatistics::add(double error, double sigma, std::span<const double> we
   }
 }
 
-Estimated ErrorStatistics::bias(double z) const {
+Estimated ErrorStatistics::bias(double confidence) const {
   const double n = static_cast<double>(n_);
   if (n_ < 2) return {n_ == 1 ? prior_sigma_ * sum_ : nan_value, nan_value, nan_value};
   const double mean = sum_ / n;
   const double spread = std::sqrt(std::max(0.0, square_ / n - mean * mean) * n / (n - 1.0));
-  const double half = z * spread / std::sqrt(n);
+  const double half = stats::t_half_width(confidence, n - 1.0) * spread / std::sqrt(n);
   return {prior_sigma_ * mean, prior_sigma_ * (mean - half), prior_sigma_ * (mean + half)};
 }
 

@@ -45,8 +45,9 @@ class ErrorStatistics {
 
   std::uint64_t runs() const { return n_; }
   double prior_sigma() const { return prior_sigma_; }
-  /// Mean error with its interval, mean +- z SD / sqrt(n).
-  Estimated bias(double z = stats::half_width_95) const;
+  /// Mean error with its interval, mean +- t SD / sqrt(n), t of Student's distribution: the SD is
+  /// that of these runs, too.
+  Estimated bias(double confidence = 0.95) const;
   /// Root mean square error. The interval: the 2.5 and 97.5 % points of the bootstrap.
   Estimated rmse() const;
   /// The same with a normal interval from the spread of the squared errors (delta method): for

@@ -11,10 +11,18 @@
 namespace drift::mc {
 namespace {
 
+/// Those that add to E.
+constexpr std::size_t misalignment_terms[] = {TermLibrary::term_index("gyro_misalignment"),
+                                              TermLibrary::term_index("misalignment_creep")};
+
 /// Numbers that a study gives alike, whatever their units.
 bool same(double a, double b) {
   constexpr double rounding = 1e-12;  // of a conversion, relative
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+}
+
+bool is_less(double a, double b) {
+  return a < b && !same(a, b);
 }
 
 /// Whether something believed known is what the truth always has.
@@ -45,6 +53,22 @@ bool acts(const TruthSpec& truth, const TermInfo& term) {
   return has_sizes ? any : all;
 }
 
+/// Whether a model has a misalignment of the gyros' input axes, E, which is all that equations
+/// close over in different ways: without it they are one.
+bool is_misaligned(const ModelSpec& spec) {
+  for (const std::size_t t : misalignment_terms) {
+    const TermInfo& term = TermLibrary::terms[t];
+    for (std::size_t i = term.first; i < term.first + term.count; ++i)
+      if (spec.active[i] && has_size(spec.priors[i])) return true;
+  }
+  return false;
+}
+
+/// Whether the prior of an estimated parameter rules the truth's values out.
+bool excludes(const Prior& own, const Prior& truth) {
+  return std::hypot(truth.mean() - own.mean(), truth.sigma()) > far_off_prior * own.sigma();
+}
+
 /// Lambda of a coupling whose loop compensates nothing; nothing if it is no member of the family by
 /// name.
 std::optional<double> lambda_compensating_nothing(Coupling coupling) {
@@ -67,6 +91,7 @@ bool same_equation(const TruthSpec& truth, const FilterSpec& filter) {
   if (truth.coupling == filter.coupling && truth.coupling != Coupling::lambda) return true;
   const std::optional<Prior> lambda = lambda_of(truth);
   if (!lambda) return false;
+  if (!is_misaligned(truth) || !is_misaligned(filter)) return true;
   if (filter.coupling == Coupling::lambda) {
     const Prior& own = filter.priors[closure_param];
     return own.sigma() > 0.0 || same(*lambda, own.mean());
@@ -77,19 +102,34 @@ bool same_equation(const TruthSpec& truth, const FilterSpec& filter) {
   return own && same(*lambda, *own);
 }
 
+/// Notes the key of a noise, once, where the filter has none of it or less than the truth.
+void compare_key(std::string_view key, double truth, double filter, LeftOut& out) {
+  std::vector<std::string_view>& keys = filter > 0.0 ? out.smaller_keys : out.noise;
+  if (is_less(filter, truth) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+}
+
 /// Random walks of drifts, whether a term or a key of the model makes them.
 void compare_walks(const TruthSpec& truth, const FilterSpec& filter, const Theta& known,
                    LeftOut& out) {
   constexpr std::size_t q = TermLibrary::index("q_x");
   const Theta sizes = make_layout(truth).theta;
   for (int axis = 0; axis < 3; ++axis) {
-    if (drift_walk(truth.noise, truth.model().terms, sizes, axis) == 0.0 ||
-        drift_walk(filter.noise, filter.model().terms, known, axis) > 0.0)
-      continue;
-    if (truth.noise.drift_random_walk == 0.0)
-      out.parameters.set(q + axis);
-    else if (std::ranges::find(out.noise, "drift_random_walk") == out.noise.end())
-      out.noise.emplace_back("drift_random_walk");
+    const double walk = drift_walk(truth.noise, truth.model().terms, sizes, axis),
+                 own = drift_walk(filter.noise, filter.model().terms, known, axis);
+    if (truth.noise.drift_random_walk > 0.0)
+      compare_key("drift_random_walk", walk, own, out);
+    else if (is_less(own, walk))
+      (own > 0.0 ? out.smaller : out.parameters).set(q + axis);
+  }
+}
+
+/// A noise of a term that the filter has, too. The longer a level lasts the less it takes a drift
+/// for free; what a gate and the outliers behind it are is the filter's own business.
+void compare_noise(std::size_t param, double truth, double known, LeftOut& out) {
+  if (param == TermLibrary::index("B_dwell")) {
+    if (is_less(truth, known)) out.held.set(param);
+  } else if (is_size(TermLibrary::specs[param]) && is_less(known, truth)) {
+    out.smaller.set(param);
   }
 }
 
@@ -98,6 +138,7 @@ void compare_walks(const TruthSpec& truth, const FilterSpec& filter, const Theta
 LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter) {
   constexpr std::size_t walk = TermLibrary::term_index("drift_random_walk");
   const Layout layout = make_layout(filter);
+  const Theta sizes = make_layout(truth).theta;  // of what is random, the root mean square
   LeftOut out;
   out.equation = !same_equation(truth, filter);
   for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t) {
@@ -111,13 +152,22 @@ LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter) {
       const bool is_noise = spec.kind == ParamKind::noise;
       if (!filter.active[i] || (is_noise && layout.theta[i] == 0.0))
         out.parameters.set(i);
-      else if (!is_state && !is_noise && !same(truth.priors[i], layout.theta[i]))
+      else if (is_noise)
+        compare_noise(i, sizes[i], layout.theta[i], out);
+      else if (is_state && excludes(filter.priors[i], truth.priors[i]))
+        out.excluded.set(i);
+      else if (!is_state && !same(truth.priors[i], layout.theta[i]))
         out.held.set(i);
     }
   }
   compare_walks(truth, filter, layout.theta, out);
-  if (truth.noise.angle_random_walk > 0.0 && filter.noise.angle_random_walk == 0.0)
-    out.noise.emplace_back("angle_random_walk");
+  compare_key("angle_random_walk", truth.noise.angle_random_walk, filter.noise.angle_random_walk,
+              out);
+  if (is_less(filter.initial_attitude, truth.initial_attitude))
+    out.smaller_keys.emplace_back("initial_attitude");
+  const ServoOptions& servo = truth.servo;
+  if (truth.coupling == Coupling::servo && servo.base_amplitude > 0.0 && servo.base_frequency > 0.0)
+    out.noise.emplace_back("servo.base_amplitude");
   return out;
 }
 

@@ -13,16 +13,27 @@ struct LeftOut {
   bool equation = false;                ///< it has another drift equation
   ParamMask parameters;                 ///< sizes and noises of the truth that it does not have
   ParamMask held;                       ///< it knows them, at other values than the truth's
-  std::vector<std::string_view> noise;  ///< keys of process noise of the truth that it has not
+  ParamMask excluded;                   ///< it estimates them, with priors far from the truth's
+  ParamMask smaller;                    ///< noises of terms, smaller than the truth's
+  std::vector<std::string_view> noise;  ///< keys of noise and motion of the truth that it has not
+  std::vector<std::string_view> smaller_keys;  ///< keys of noise that it has, but less of it
 
-  /// The filter is right: its sigmas are those of its errors, as far as it is linear.
-  bool nothing() const { return !equation && parameters.none() && held.none() && noise.empty(); }
+  /// The filter is right: its sigmas are not below its errors, as far as it is linear.
+  bool nothing() const {
+    return !equation && (parameters | held | excluded | smaller).none() && noise.empty() &&
+           smaller_keys.empty();
+  }
 };
+
+/// [sigma of a filter's prior] A parameter whose truths lie farther from the mean of the prior,
+/// root mean square, is one that the prior excludes: normal numbers are not there.
+inline constexpr double far_off_prior = 5.0;
 
 /// Compares a filter with the truth. Of the truth counts what acts: an effect of size zero does
 /// not, a drawn one does. A loop that compensates nothing is eq. (5), an integrating servo closes
-/// like eq. (6), and a filter that estimates lambda has every member of the family. What the filter
-/// has beyond the truth harms nothing.
+/// like eq. (6), a filter that estimates lambda has every member of the family, and without
+/// misalignments on both sides all of them are one. What the filter has beyond the truth harms
+/// nothing: of a noise that is larger than the truth's, its sigmas are only too large.
 LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter);
 
 /// Whether truths are drawn from what the filter believes and starts from: it leaves nothing out,

@@ -49,7 +49,10 @@ std::string work_text(const AskedRun& asked, const mc::EngineOptions& options,
                                                blocks_text(would.others))
                                  : "";
   std::string text = fmt::format(
-      "stored           {} runs{}\n", would.stored,
+      "stored           {} runs{}{}\n", would.stored + would.beyond,
+      would.beyond == 0 ? ""
+                        : fmt::format(", {} of them beyond the {} per point that are asked for",
+                                      would.beyond, options.runs),
       would.cut_short == 0
           ? ""
           : fmt::format("; {} more are in blocks that a shorter study ended within: they would be "

@@ -50,8 +50,9 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
     return;
   }
   const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
-  say("{}: {} runs stored before, {} executed in {} ({:.1f} runs/s), {} failed{}\n", folder,
-      o.done_before + o.cut_short, o.done, duration_text(o.seconds), rate, o.failed,
+  say("{}: {} runs{} stored before, {} executed in {} ({:.1f} runs/s), {} failed{}\n", folder,
+      o.done_before + o.cut_short, o.stored_runs > asked.runs ? " of those asked for" : "", o.done,
+      duration_text(o.seconds), rate, o.failed,
       o.dropped > 0 ? fmt::format("; {} more, of unfinished blocks, are lost", o.dropped) : "");
   if (o.cut_short > 0)
     say("{}: {} of the runs stored before were in blocks that the shorter study ended within; they "

@@ -16,8 +16,8 @@ std::string part_text(const mc::WorkerShare& share) {
 
 void say_asked_before(const std::string& folder, std::uint64_t before, std::uint64_t now) {
   if (before <= now) return;
-  say("{}: note: {} runs per point were asked for before, {} now; the results are those of all "
-      "that is stored. Choose another folder for a shorter study\n",
+  say("{}: note: {} runs per point were asked for before, {} now: what is stored stays, and the "
+      "results are those of all of it. Choose another folder for a shorter study\n",
       folder, before, now);
 }
 
@@ -26,8 +26,9 @@ std::uint64_t runs_to_go_on_to(const std::string& folder, std::uint64_t of_study
   if (before <= of_study) return of_study;
   if (tells)
     say("{}: note: {} runs per point were asked for before, {} in the study file; it goes on with "
-        "the {}. For fewer give --runs\n",
-        folder, before, of_study, before);
+        "the {}. With --runs {} it executes no more than those, and what is stored beyond stays in "
+        "the results\n",
+        folder, before, of_study, before, of_study);
   return before;
 }
 

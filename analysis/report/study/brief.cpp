@@ -19,15 +19,19 @@ struct Tally {
   double sigmas_off = 1.0;  ///< factor between errors and sigmas of the worst pair
   const Pair* overconfident = nullptr;
   const Pair* not_linear = nullptr;  ///< the worst whose truths are those that it believes in
+  const Pair* unlike = nullptr;      ///< the one with the largest innovations, of those too large
 };
+
+const mc::StartStatistics& first_start(const StudyResults& results, const Pair& pair) {
+  return statistics_of(results, pair).starts().front();
+}
 
 /// Whether errors are larger than the sigmas by more than chance where the filter knows all there
 /// is to know: what is left is that it is linear about one estimate.
 bool not_linear(const StudyResults& results, const Pair& pair) {
   const mc::Study& study = results.points[pair.point].study;
   return mc::drawn_from_beliefs(study.truth, study.filters[pair.filter]) &&
-         statistics_of(results, pair).starts().front().nees.sigmas_above() >
-             inference::FitLimits::misfit;
+         first_start(results, pair).nees.sigmas_above() > inference::FitLimits::misfit;
 }
 
 void add(Tally& tally, const StudyResults& results, const Pair& pair) {
@@ -47,9 +51,12 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
   }
   if (not_linear(results, pair) &&
       (tally.not_linear == nullptr ||
-       sigmas_off(filter.starts().front()) >
-           sigmas_off(statistics_of(results, *tally.not_linear).starts().front())))
+       sigmas_off(filter.starts().front()) > sigmas_off(first_start(results, *tally.not_linear))))
     tally.not_linear = &pair;
+  if (const mc::ChiSquareSum& nis = filter.starts().front().nis;
+      nis.sigmas_above() > inference::FitLimits::misfit &&
+      (tally.unlike == nullptr || nis.mean() > first_start(results, *tally.unlike).nis.mean()))
+    tally.unlike = &pair;
   if (tally.worst == nullptr || silent.value() > tally.silent.value()) {
     tally.worst = &pair;
     tally.silent = silent;
@@ -98,12 +105,35 @@ std::string estimator_text(const mc::Study& study) {
 }
 
 std::string not_linear_text(const StudyResults& results, const Pair& pair) {
-  const mc::StartStatistics& start = statistics_of(results, pair).starts().front();
+  const mc::StartStatistics& start = first_start(results, pair);
   return fmt::format(
       "The sigmas are too small: errors are {} times as large (root of NEES/dof, by chance up to "
       "{}; {}). Truths, noise and filter are alike, so it is the estimator: {}.",
       number_text(sigmas_off(start), 3), number_text(std::sqrt(start.nees.high()), 3),
       pair_in_words(results, pair), estimator_text(results.points[pair.point].study));
+}
+
+/// A filter may have all of the truth and not follow its data: linear about a place far off, say.
+std::string unlike_text(const StudyResults& results, const Pair& pair) {
+  const mc::StartStatistics& start = first_start(results, pair);
+  return fmt::format(
+      "The innovations are not those that the filter expects: NIS/dof {} (by chance {} to {}; {}), "
+      "and {} % of its runs look healthy.",
+      number_text(start.nis.mean(), 3), number_text(start.nis.low(), 3),
+      number_text(start.nis.high(), 3), pair_in_words(results, pair),
+      percent_cell(start.healthy.value()).text);
+}
+
+/// What the sigmas and innovations of right filters are not; of one pair the graver of them.
+void add_doubts(InBrief& brief, const StudyResults& results, const Tally& right) {
+  const bool far_off = right.sigmas_off > much_too_small;
+  if (right.not_linear != nullptr && !far_off)
+    brief.more.add(Weight::doubtful, not_linear_text(results, *right.not_linear));
+  const Pair* said = far_off ? right.overconfident : right.not_linear;
+  if (right.unlike == nullptr || right.unlike == said) return;
+  const bool evident = !(first_start(results, *right.unlike).nis.mean() < evident_misfit);
+  brief.more.add(evident ? Weight::wrong : Weight::doubtful, unlike_text(results, *right.unlike));
+  if (evident) brief.tone = Tone::bad;
 }
 
 }  // namespace
@@ -113,6 +143,7 @@ InBrief study_in_brief(const StudyResults& results) {
   Tally right, incomplete, wrong;
   std::size_t lost = 0;
   for (const Pair& pair : pairs) {
+    if (results.statistics[pair.point].runs() == 0) continue;
     if (results.statistics[pair.point].failures().too_many()) {
       ++lost;
       continue;
@@ -122,6 +153,10 @@ InBrief study_in_brief(const StudyResults& results) {
   }
   InBrief brief;
   brief.tone = Tone::good;
+  if (const std::string unfinished = unfinished_text(results); !unfinished.empty()) {
+    brief.more.add(Weight::wrong, unfinished);
+    brief.tone = Tone::plain;
+  }
   const auto say = [&](const Tally& t, const std::string& said) {
     if (brief.verdict.empty())
       brief.verdict = said;
@@ -142,8 +177,7 @@ InBrief study_in_brief(const StudyResults& results) {
       brief.more.add(Weight::wrong, sigmas_text(results, *t));
       brief.tone = Tone::bad;
     }
-  if (right.not_linear != nullptr && right.sigmas_off <= much_too_small)
-    brief.more.add(Weight::doubtful, not_linear_text(results, *right.not_linear));
+  add_doubts(brief, results, right);
   if (lost > 0) {
     brief.more.add(
         Weight::wrong,
@@ -153,6 +187,7 @@ InBrief study_in_brief(const StudyResults& results) {
     if (brief.verdict.empty()) brief.verdict = "No result: too many runs were lost. See Failures.";
     brief.tone = Tone::bad;
   }
+  if (brief.verdict.empty()) brief.verdict = "No result: there are no runs yet.";
   for (const std::string& term : broken_terms(results)) {
     brief.more.add(Weight::wrong, fmt::format("Failed runs: {}.", term));
     brief.tone = Tone::bad;

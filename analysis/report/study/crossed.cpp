@@ -14,9 +14,9 @@ Cell chi_square_cell(const mc::ChiSquareSum& sum) {
   if (!(sum.dof > 0.0)) return "-";
   const double mean = sum.mean();
   return {mean, mean < 1e4 ? fmt::format("{:.4g}", mean) : fmt::format("{:.1e}", mean),
-          sum.holds()                ? Tone::good
-          : mean < 1.1 && mean > 0.9 ? Tone::doubtful
-                                     : Tone::bad};
+          sum.holds()                           ? Tone::good
+          : mean < evident_misfit && mean > 0.9 ? Tone::doubtful
+                                                : Tone::bad};
 }
 
 std::string worst_text(const FilterStatistics& filter, double claims) {

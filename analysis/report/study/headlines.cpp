@@ -55,20 +55,24 @@ std::string pair_in_words(const StudyResults& results, const Pair& pair) {
                      statistics_of(results, pair).columns().name);
 }
 
-std::vector<std::string> headlines(const StudyResults& results) {
-  constexpr std::size_t most = 12;
+std::vector<std::string> headlines(const StudyResults& results, std::size_t most) {
   std::vector<Pair> pairs = pairs_of(results);
+  std::erase_if(pairs, [&](const Pair& p) { return results.statistics[p.point].runs() == 0; });
   // The wrong pairs first, by falling silent failure rate.
   std::ranges::stable_sort(pairs, {}, [&](const Pair& p) {
-    return std::pair(matched(results, p),
-                     -statistics_of(results, p).starts().front().silent.value());
+    const stats::Rate& silent = statistics_of(results, p).starts().front().silent;
+    return std::pair(matched(results, p), silent.of > 0 ? -silent.value() : 0.0);
   });
   std::vector<std::string> lines;
   std::vector<std::size_t> refused;
+  std::size_t said = 0, left = 0;
   for (const Pair& pair : pairs) {
     const auto& failures = results.statistics[pair.point].failures();
     if (!failures.too_many()) {
-      if (lines.size() < most) lines.push_back(headline_of(results, pair));
+      if (said == most)
+        ++left;
+      else
+        lines.push_back(headline_of(results, pair)), ++said;
     } else if (std::ranges::find(refused, pair.point) == refused.end()) {
       refused.push_back(pair.point);
       lines.push_back(
@@ -78,6 +82,9 @@ std::vector<std::string> headlines(const StudyResults& results) {
                       rate_cell(failures.lost()).text));
     }
   }
+  if (left > 0)
+    lines.push_back(
+        fmt::format("And {} more pair{} of point and filter: see the tables.", left, plural(left)));
   return lines;
 }
 

@@ -69,7 +69,8 @@ Panel coverage_panel(const mc::FilterStatistics& f, double claims) {
     panel.note = "claims to know no parameter";
     return panel;
   }
-  const std::size_t worst = worst_parameter(f, claims);
+  const std::size_t found = worst_parameter(f, claims);  // none where no error is above zero
+  const std::size_t worst = found < f.errors().size() ? found : states.front();
   panel.title = fmt::format("Coverage; worst {}", key_at(f, worst));
   ExpectedBand band{"95 % of an honest filter", {}, {}, {}};
   const double n = static_cast<double>(f.errors()[worst].magnitudes().total());

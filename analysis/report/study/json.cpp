@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/study/sections.hpp"
@@ -71,7 +72,11 @@ Json parameter(const mc::FilterStatistics& f, std::size_t k) {
 }
 
 Json of(const mc::LeftOut& l) {
-  return {{"equation", l.equation}, {"terms", missing_in(l)}, {"held", keys_of(l.held)}};
+  return {{"equation", l.equation},
+          {"terms", missing_in(l)},
+          {"held", keys_of(l.held)},
+          {"smaller", smaller_in(l)},
+          {"excluded", keys_of(l.excluded)}};
 }
 
 Json failures(const mc::FailureStatistics& f) {
@@ -98,6 +103,10 @@ Json failures(const mc::FailureStatistics& f) {
 Json study_document(const StudyResults& results) {
   Json out = {{"schema", 1},
               {"title", results.study.title},
+              {"runs", all_runs(results)},
+              {"runs_planned",
+               std::max(all_runs(results), results.asked * std::uint64_t{results.points.size()})},
+              {"finished", results.unfinished.empty()},
               {"headlines", headlines(results)},
               {"points", Json::array()}};
   for (std::size_t p = 0; p < results.points.size(); ++p) {

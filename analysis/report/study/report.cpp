@@ -20,11 +20,12 @@ Section provenance(const StudyResults& results) {
 Report study_report(const StudyResults& results) {
   Report report{.command = "run"};
   report.title = results.study.title.empty() ? "Monte Carlo study" : results.study.title;
-  std::uint64_t runs = 0;
-  for (const auto& s : results.statistics) runs += s.runs();
-  report.subtitle = fmt::format("{} runs at {} study point{}, seed {}", runs, results.points.size(),
-                                plural(results.points.size()), results.study.monte_carlo.seed);
-  report.headlines = headlines(results);
+  const std::size_t points = results.points.size();
+  report.subtitle =
+      fmt::format("{}{} runs at {} study point{}, seed {}", all_runs(results),
+                  results.unfinished.empty() ? "" : fmt::format(" of {}", results.asked * points),
+                  points, plural(points), results.study.monte_carlo.seed);
+  report.headlines = headlines(results, most_headlines);
   report.brief = study_in_brief(results);
   report.add(sections_of(results, study_sections));
   Json document = study_document(results);

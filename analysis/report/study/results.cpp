@@ -10,6 +10,29 @@
 
 namespace drift::report {
 
+std::uint64_t all_runs(const StudyResults& results) {
+  std::uint64_t runs = 0;
+  for (const mc::PointStatistics& s : results.statistics) runs += s.runs();
+  return runs;
+}
+
+std::string unfinished_text(const StudyResults& results) {
+  if (results.unfinished.empty()) return "";
+  const auto none = static_cast<std::size_t>(std::ranges::count_if(
+      results.unfinished, [&](std::size_t p) { return results.statistics[p].runs() == 0; }));
+  const std::size_t points = results.points.size(), lack = results.unfinished.size();
+  std::string text =
+      fmt::format("The study is not finished: {} of {}{} runs are there", all_runs(results),
+                  results.study.monte_carlo.stop ? "at most " : "", results.asked * points);
+  const auto of_points = [&](std::size_t count, std::string_view which) {
+    text += fmt::format("; {} of {} study points {}", count, points, which);
+  };
+  if (points > 1 && none > 0) of_points(none, none == 1 ? "has none" : "have none");
+  if (points > 1 && lack > none)
+    of_points(lack - none, lack - none == 1 ? "lacks some" : "lack some");
+  return text + ". What is said is of these runs.";
+}
+
 std::vector<Pair> pairs_of(const StudyResults& results) {
   std::vector<Pair> pairs;
   for (std::size_t p = 0; p < results.statistics.size(); ++p)
@@ -37,6 +60,12 @@ std::vector<std::string> missing_in(const mc::LeftOut& l) {
   return missing;
 }
 
+std::vector<std::string> smaller_in(const mc::LeftOut& l) {
+  std::vector<std::string> smaller = keys_of(l.smaller);
+  smaller.insert(smaller.end(), l.smaller_keys.begin(), l.smaller_keys.end());
+  return smaller;
+}
+
 std::vector<std::string> keys_of(const ParamMask& params) {
   std::vector<std::string> keys;
   for (std::size_t i = 0; i < params.size(); ++i)
@@ -54,6 +83,13 @@ std::string model_in_words(const mc::LeftOut& l) {
   if (l.held.any())
     parts.push_back(
         fmt::format("with {} at other values than the truth", fmt::join(keys_of(l.held), ", ")));
+  const std::vector<std::string> smaller = smaller_in(l);
+  if (!smaller.empty())
+    parts.push_back(fmt::format("with {} smaller than the truth's", fmt::join(smaller, ", ")));
+  if (l.excluded.any())
+    parts.push_back(fmt::format("with prior{} of {} that exclude{} the truth",
+                                plural(l.excluded.count()), fmt::join(keys_of(l.excluded), ", "),
+                                l.excluded.count() == 1 ? "s" : ""));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

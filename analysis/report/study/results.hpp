@@ -24,10 +24,17 @@ struct StudyResults {
   mc::Study study;  ///< as given, with its sweep
   std::vector<mc::StudyPoint> points;
   std::vector<mc::PointStatistics> statistics;  ///< one per point
+  std::uint64_t asked = 0;  ///< runs per point, with a stop rule at most; 0: those there are
+  std::vector<std::size_t> unfinished;  ///< points with fewer, that no stop rule ended
   std::vector<TracedRun> traces;
   std::vector<std::pair<std::string, std::string>> provenance;  ///< shown as they are
   Section information;  ///< of information_section(); may be empty
 };
+
+/// Of all points.
+std::uint64_t all_runs(const StudyResults& results);
+/// "The study is not finished: 180 of 540 runs are there ..."; empty of a finished one.
+std::string unfinished_text(const StudyResults& results);
 
 /// One filter at one study point.
 struct Pair {
@@ -46,6 +53,8 @@ bool matched(const StudyResults& results, const Pair& pair);
 std::string model_in_words(const mc::LeftOut& left_out);
 /// What is missing in it, as the "terms" of a study file would have it, and keys of its noise.
 std::vector<std::string> missing_in(const mc::LeftOut& left_out);
+/// Of which noise it has less than the truth: parameters and keys, "initial_attitude".
+std::vector<std::string> smaller_in(const mc::LeftOut& left_out);
 /// "W_tau" of each parameter.
 std::vector<std::string> keys_of(const ParamMask& params);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "analysis/report/study/report.hpp"
@@ -18,12 +20,18 @@ InBrief study_in_brief(const StudyResults& results);
 
 /// What must not be missed, in words: for each truth and filter how often it fails, how often
 /// silently, and where most. Refused, with the reason, where more than 1 % of the runs are lost.
-std::vector<std::string> headlines(const StudyResults& results);
+/// Of more than `most` pairs the last line says how many are left.
+std::vector<std::string> headlines(const StudyResults& results,
+                                   std::size_t most = std::numeric_limits<std::size_t>::max());
+inline constexpr std::size_t most_headlines = 12;  ///< above the tables of a report
 
 /// How many times as large as their sigmas errors are, over all that a filter claims to know: the
 /// root of NEES/dof; 1 where no truth tells.
 double sigmas_off(const mc::StartStatistics& start);
 inline constexpr double much_too_small = 2.0;  ///< of such a factor: the sigmas are not to be used
+
+/// Of the mean of a chi-square over its degrees of freedom: beyond, a misfit is seen in any table.
+inline constexpr double evident_misfit = 1.1;
 
 /// "plan.preset = six: truth eq5, filter legacy".
 std::string pair_in_words(const StudyResults& results, const Pair& pair);

@@ -63,9 +63,9 @@ Panel panel_of(const StudyResults& results, const Statistic& statistic, std::siz
   Panel panel;
   panel.title = statistic.title;
   const auto& [key, value] = results.points.front().values[axis];
-  const std::string member = last_member(value);
-  panel.x_label = fmt::format("{}{}{} [{}]", key, member.empty() ? "" : ": ", member,
-                              at.front().unit.symbol.view());
+  const std::string member = last_member(value), &what = at.front().what;
+  panel.x_label = fmt::format("{}{}{}{}{} [{}]", key, member.empty() ? "" : ": ", member,
+                              what.empty() ? "" : ", ", what, at.front().unit.symbol.view());
   panel.y_label = statistic.y_label;
   for (auto& [label, samples] : curves) {
     std::ranges::stable_sort(samples, {}, &Sample::x);
@@ -82,9 +82,26 @@ Panel panel_of(const StudyResults& results, const Statistic& statistic, std::siz
   return panel;
 }
 
+/// Whether numbers tell the values of an axis apart: they are alike in all but the number, and
+/// other values have other ones.
+bool stand_for(const std::vector<SweptNumber>& at, const StudyResults& results, std::size_t axis) {
+  if (at.size() != results.points.size()) return false;
+  std::map<double, std::string> texts;
+  bool varies = false;
+  for (std::size_t p = 0; p < at.size(); ++p) {
+    const SweptNumber& n = at[p];
+    if (!n.unit.same_dimension(at.front().unit) || n.kind != at.front().kind) return false;
+    varies = varies || n.si != at.front().si;
+    const std::string text = short_value(results.points[p].values[axis].second);
+    if (texts.emplace(n.si, text).first->second != text) return false;
+  }
+  return varies;
+}
+
 }  // namespace
 
-/// Statistics against the swept value, one picture for each axis whose values are numbers.
+/// Statistics against the swept value, one picture for each axis whose values are numbers that mean
+/// the same.
 Section sweep(const StudyResults& results) {
   Section section{"Sweep", {}};
   const std::size_t axes = results.points.empty() ? 0 : results.points.front().values.size();
@@ -92,13 +109,7 @@ Section sweep(const StudyResults& results) {
     std::vector<SweptNumber> at;
     for (const mc::StudyPoint& point : results.points)
       if (const auto number = swept_number(point.values[a].second)) at.push_back(*number);
-    const bool numbers =
-        at.size() == results.points.size() && std::ranges::all_of(at, [&](const auto& n) {
-          return n.unit.same_dimension(at.front().unit);
-        });
-    const bool varies =
-        std::ranges::any_of(at, [&](const auto& n) { return n.si != at.front().si; });
-    if (!numbers || !varies) continue;
+    if (!stand_for(at, results, a)) continue;
     const std::string& key = results.points.front().values[a].first;
     Chart chart{fmt::format("Against {}", key), {}, 2, 480.0, 270.0};
     for (const Statistic& s : statistics(claims_of(results)))

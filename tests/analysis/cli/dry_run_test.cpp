@@ -67,8 +67,14 @@ TEST(DryRun, OfALongerOrShorterStudyItSaysWhatTheRunWould) {
   const Answer plain = dry(line, out);
   expect_says(plain.err, "300 runs per point were asked for before, 200 in the study file");
   expect_says(plain.out, "runs             300 ");
-  expect_says(dry(line + " --runs 20", out).err,
-              "300 runs per point were asked for before, 20 now");
+  expect_says(plain.err,
+              "With --runs 200 it executes no more than those, and what is stored beyond");
+  const Answer shorter = dry(line + " --runs 20", out);
+  expect_says(shorter.err,
+              "300 runs per point were asked for before, 20 now: what is stored stays");
+  expect_says(shorter.out,
+              "stored           300 runs, 280 of them beyond the 20 per point that are");
+  expect_says(shorter.out, "to execute       nothing, the study is complete\n");
 }
 
 TEST(DryRun, WhatTheRunRefusesItRefusesInTheSameWords) {

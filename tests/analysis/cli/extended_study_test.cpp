@@ -28,6 +28,7 @@ TEST(ExtendedStudy, AStudyThatWasExtendedIsMissedToItsNewEnd) {
   const Answer shorter = test::synthetic("run " + config + " --runs 20 -o " + out);
   EXPECT_EQ(shorter.out, longer.out);
   expect_says(shorter.err, "300 runs per point were asked for before, 20 now");
+  expect_says(shorter.err, "20 runs of those asked for stored before, 0 executed");
   fs::remove(out + "/worker-0000.sqlite");
   expect_says(test::synthetic("status " + out).out, "0 of 300 runs");
   EXPECT_EQ(test::synthetic("verify " + out).code, 7);

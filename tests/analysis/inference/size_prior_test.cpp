@@ -86,5 +86,20 @@ TEST(SizePrior, AFitUnderAWiderPriorHasTheSameEvidence) {
               log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, C * a)), 1e-9);
 }
 
+TEST(SizePrior, WhatMayHaveBeenMadeSmallLosesNothingByBeingThere) {
+  // Six amplitudes that a test sees to a thousandth of their prior, and does not find. As large as
+  // their prior they would be a coincidence of 6 log(1000); of eight scales, the least of which it
+  // does not see (0.3 of its sigma: 3 log(1.09)), they cost no more than log 8 and that.
+  const int n = 6;
+  const double s = 1e-3;
+  const VecX x = VecX::Zero(n);
+  const MatX covariance = s * s / (1.0 + s * s) * MatX::Identity(n, n);
+  const double unit = n * std::log(s);  // log evidence with the prior, against none
+  const double whole = unit + log_gain_of_sizes_made_small(x, covariance);
+  EXPECT_GE(whole, -std::log(8.0) - 3.0 * std::log(1.09) - 1e-3);
+  EXPECT_LE(whole, 0.0);
+  EXPECT_LT(unit + log_gain_of_sizes(x, covariance, std::vector<int>(n, 0)), -13.0);
+}
+
 }  // namespace
 }  // namespace drift::inference::size_prior_test

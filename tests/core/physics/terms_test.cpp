@@ -118,6 +118,22 @@ TEST(EveryTerm, DerivativesByDualNumbersAreThoseByDifferences) {
   }
 }
 
+/// What mc/task/left_out.cpp goes by: equations close over misalignments, and over nothing else.
+TEST(EveryTerm, EquationsDifferByMisalignmentsAlone) {
+  const Scene scene;
+  const Theta theta = scene_theta();
+  for (std::size_t t = 0; t < TermLibrary::terms.size(); ++t) {
+    if (TermLibrary::terms[t].key == closure_term) continue;
+    const auto rate = [&](Coupling coupling) -> Vec3 {
+      return outputs<double>(scene, {coupling, TermMask().set(t), {}}, theta.data()).head<3>();
+    };
+    const double apart = (rate(Coupling::eq5) - rate(Coupling::eq6)).norm();
+    const bool misaligns = TermLibrary::terms[t].key == "gyro_misalignment" ||
+                           TermLibrary::terms[t].key == "misalignment_creep";
+    EXPECT_EQ(apart > 1e-14 * rate(Coupling::eq5).norm(), misaligns) << TermLibrary::terms[t].key;
+  }
+}
+
 TEST(EveryTerm, ZeroParametersMeanNoEffect) {
   // No amplitude; time constants and the like at zero too, which must do no harm.
   const Scene scene;

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "mc/engine/replay.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
 
@@ -194,6 +195,10 @@ TEST(Engine, AStartReadsNothingOfOthersAndDamageIsMetBeforeTheStudyIsComplete) {
   EXPECT_EQ(third.missing, 1u);
   EXPECT_EQ(third.missing_own, 0u);
   EXPECT_EQ(third.digest, "");
+  mc::StudyReader reader(folder.path());
+  const mc::Verification found = mc::verify(study.work(), reader, 0.0, 1);
+  EXPECT_EQ(found.missing, 1u) << "damaged in every copy: it is not there";
+  EXPECT_EQ(found.damage.size(), 1u);
   const auto mended = run(0);
   EXPECT_EQ(mended.done, 64u);
   EXPECT_EQ(mended.digest, whole.digest);

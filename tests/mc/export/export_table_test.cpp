@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mc/statistics/point_statistics.hpp"
 #include "tests/mc/small_study.hpp"
 
@@ -21,7 +23,7 @@ TEST(ExportTable, HoldsTheStatisticsOfTheRuns) {
   const auto tasks = mc::study_tasks(points);
   const auto& task = dynamic_cast<const mc::StudyTask&>(*tasks[0].task);
   const auto worker = task.worker();
-  mc::PointStatistics expected(points[0].study, 0);
+  mc::PointStatistics expected(points[0].study);  // those of the report
   mc::StatisticsTables gathered(points);
   for (std::uint64_t first = 0; first < 80; first += 16) {
     const mc::Block block = run_block(task, *worker, first, 16);
@@ -62,6 +64,28 @@ TEST(ExportTable, HoldsTheStatisticsOfTheRuns) {
   EXPECT_EQ(column(convergence, "runs").values.back(), 80.0);
   EXPECT_EQ(column(convergence, "rmse").values.back(), column(statistics, "rmse").values.back());
   EXPECT_LE(column(statistics, "rmse_low").values[0], column(statistics, "rmse").values[0]);
+  for (std::size_t k = 0; k < n; ++k) {
+    const mc::ErrorStatistics& e = right.errors()[k];
+    EXPECT_DOUBLE_EQ(column(statistics, "rmse_low").values[k], e.rmse().low / e.prior_sigma());
+    EXPECT_DOUBLE_EQ(column(statistics, "rmse_high").values[k], e.rmse().high / e.prior_sigma());
+  }
+}
+
+TEST(ExportTable, OneRunHasAnErrorAndNoInterval) {
+  const auto points = mc::study_points(read_text(small_study, {{"monte_carlo.estimator", "ekf"}}));
+  const auto tasks = mc::study_tasks(points);
+  const auto& task = dynamic_cast<const mc::StudyTask&>(*tasks[0].task);
+  const mc::Block block = run_block(task, *task.worker(), 0, 1);
+  mc::PointStatistics expected(points[0].study);
+  mc::StatisticsTables gathered(points);
+  expected.add(block);
+  gathered.add(block);
+  const auto tables = gathered.finish();
+  const mc::ErrorStatistics& e = expected.filters()[0].errors()[0];
+  EXPECT_DOUBLE_EQ(column(tables[0], "rmse").values[0], e.rmse().value / e.prior_sigma());
+  EXPECT_GT(column(tables[0], "rmse").values[0], 0.0);
+  EXPECT_TRUE(std::isnan(column(tables[0], "rmse_low").values[0]));
+  EXPECT_TRUE(std::isnan(column(tables[0], "rmse_high").values[0]));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/base/rng.hpp"
 #include "mc/statistics/point_statistics.hpp"
@@ -20,8 +21,10 @@ TEST(ErrorStatistics, HasClosedForms) {
   e.add(1.0, 1.0, {});
   e.add(-3.0, 2.0, {});
   EXPECT_DOUBLE_EQ(e.bias().value, -1.0);
-  EXPECT_NEAR(e.bias(1.0).half_width(), std::sqrt(8.0) / std::sqrt(2.0),
-              1e-12);  // SD of {1, -3} is sqrt(8)
+  // SD of {1, -3} is sqrt(8), known from one degree of freedom: Student's t is Cauchy's.
+  EXPECT_NEAR(e.bias().half_width(),
+              std::tan(0.475 * std::numbers::pi) * std::sqrt(8.0) / std::sqrt(2.0), 1e-10);
+  EXPECT_NEAR(e.bias(0.5).half_width(), std::sqrt(8.0) / std::sqrt(2.0), 1e-12);
   EXPECT_DOUBLE_EQ(e.rmse().value, std::sqrt(5.0));
   EXPECT_DOUBLE_EQ(e.mean_sigma(), std::sqrt(2.5));
   EXPECT_DOUBLE_EQ(e.deception().value, std::sqrt(2.0));

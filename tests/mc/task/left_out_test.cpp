@@ -94,14 +94,109 @@ TEST(LeftOut, IsProcessNoiseWhateverItIsCalled) {
   FilterSpec filter = filter_with({"fixed_drift"});
   using Keys = std::vector<std::string_view>;
   EXPECT_EQ(mc::left_out(truth, filter).noise, (Keys{"drift_random_walk", "angle_random_walk"}));
-  filter.noise.angle_random_walk = 1e-7;
+  filter.noise.angle_random_walk = 1e-6;
   EXPECT_EQ(mc::left_out(truth, filter).noise, (Keys{"drift_random_walk"}));
   filter.active |= params_named("drift_random_walk");
+  for (const char* q : {"q_x", "q_y", "q_z"}) filter.priors[param(q)] = fixed(1e-9);
   EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "the term is the same noise";
   truth = truth_with({"fixed_drift", "drift_random_walk"});
   filter = filter_with({"fixed_drift"});
   filter.noise.drift_random_walk = 1e-9;
   EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "and the other way round";
+}
+
+TEST(LeftOut, IsNoiseThatTheFilterHasLessOf) {
+  // Of what is smaller the sigmas are too small; of what is larger they are only too large.
+  using Keys = std::vector<std::string_view>;
+  TruthSpec truth = truth_with({"fixed_drift"});
+  truth.noise = {.angle_random_walk = 1e-6, .drift_random_walk = 1e-9};
+  FilterSpec filter = filter_with({"fixed_drift"});
+  filter.noise = truth.noise;
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing());
+  filter.noise = {.angle_random_walk = 2e-6, .drift_random_walk = 2e-9};
+  filter.initial_attitude = 2.0 * truth.initial_attitude;
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing());
+  filter.noise = {.angle_random_walk = 1e-8, .drift_random_walk = 1e-11};
+  filter.initial_attitude = 0.01 * truth.initial_attitude;
+  const mc::LeftOut less = mc::left_out(truth, filter);
+  EXPECT_EQ(less.smaller_keys,
+            (Keys{"drift_random_walk", "angle_random_walk", "initial_attitude"}));
+  EXPECT_TRUE(less.noise.empty() && less.parameters.none() && !less.nothing());
+}
+
+TEST(LeftOut, IsNoiseOfATermThatTheFilterHasLessOf) {
+  TruthSpec truth = truth_with({"fixed_drift", "drift_random_walk", "bistable_drift"});
+  FilterSpec filter = filter_with({"fixed_drift", "drift_random_walk", "bistable_drift"});
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "drawn from what it believes";
+  filter.priors[param("q_y")] = fixed(truth.priors[param("q_y")].a);  // the least it may be
+  filter.priors[param("B_z")] = fixed(truth.priors[param("B_z")].a);
+  EXPECT_EQ(mc::left_out(truth, filter).smaller, ParamMask().set(param("q_y")).set(param("B_z")));
+  filter.priors[param("q_y")] = fixed(truth.priors[param("q_y")].b);  // the most
+  filter.priors[param("B_z")] = fixed(truth.priors[param("B_z")].b);
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing());
+  filter.priors[param("B_dwell")] = fixed(2.0 * truth.priors[param("B_dwell")].a);
+  EXPECT_EQ(mc::left_out(truth, filter).held, ParamMask().set(param("B_dwell")))
+      << "levels that last longer give the drift less room";
+}
+
+TEST(LeftOut, IsWhatAPriorExcludes) {
+  const std::size_t i = param("D_F_x");
+  const TruthSpec truth = truth_with({"fixed_drift"});
+  FilterSpec filter = filter_with({"fixed_drift"});
+  const double sigma = truth.priors[i].sigma();
+  const auto excluded = [&](const Prior& own) {
+    filter.priors[i] = own;
+    const mc::LeftOut out = mc::left_out(truth, filter);
+    EXPECT_EQ(out.nothing(), out.excluded.none());
+    return out.excluded == ParamMask().set(i);
+  };
+  EXPECT_FALSE(excluded(normal(0.0, 0.21 * sigma)));
+  EXPECT_TRUE(excluded(normal(0.0, 0.19 * sigma))) << "root mean square beyond 5 sigma";
+  EXPECT_TRUE(excluded(normal(6.0 * sigma, sigma)));
+  EXPECT_FALSE(excluded(normal(6.0 * sigma, 6.0 * sigma)));
+}
+
+TEST(LeftOut, IsNoEquationWhereNothingIsMisaligned) {
+  // Without a misalignment eq. (5) and eq. (6) are one: only what is left out itself is missing.
+  const auto wrong = [](const TruthSpec& truth, const FilterSpec& filter) {
+    return mc::left_out(truth, filter).equation;
+  };
+  using enum Coupling;
+  const TruthSpec plain = truth_with({"fixed_drift", "g_drift"});
+  EXPECT_FALSE(wrong(plain, filter_with({"fixed_drift", "g_drift"}, eq6)));
+  EXPECT_FALSE(wrong(plain, filter_with({"fixed_drift", "g_drift", "gyro_misalignment"}, eq6)));
+  TruthSpec zero = truth_with({"fixed_drift", "gyro_misalignment", "misalignment_creep"});
+  const FilterSpec other = filter_with({"fixed_drift", "gyro_misalignment"}, eq6);
+  EXPECT_TRUE(wrong(zero, other));
+  for (const char* term : {"gyro_misalignment", "misalignment_creep"}) {
+    const ParamMask params = params_named(term);
+    for (std::size_t i = 0; i < params.size(); ++i)
+      if (params[i]) zero.priors[i] = fixed(0.0);
+    EXPECT_EQ(wrong(zero, other), std::string_view(term) == "gyro_misalignment")
+        << "a creep is a misalignment, too";
+  }
+  const TruthSpec tilted = truth_with({"fixed_drift", "gyro_misalignment"});
+  EXPECT_EQ(missing(mc::left_out(tilted, filter_with({"fixed_drift"}, eq6))),
+            (Names{"gyro_misalignment"}));
+  EXPECT_FALSE(wrong(tilted, filter_with({"fixed_drift"}, eq6)));
+  // A loop that compensates something, and floats that leak, act without any.
+  TruthSpec loop = truth_with({"fixed_drift"}, compensated);
+  loop.theta_loop[param("eta_x")] = 1e-3;
+  EXPECT_TRUE(wrong(loop, filter_with({"fixed_drift"}, eq5)));
+  TruthSpec spring = truth_with({"fixed_drift"}, servo);
+  EXPECT_FALSE(wrong(spring, filter_with({"fixed_drift"}, eq5)));
+  spring.servo.float_restraint = 0.1;
+  EXPECT_TRUE(wrong(spring, filter_with({"fixed_drift"}, eq6)));
+}
+
+TEST(LeftOut, IsAMotionOfTheBaseThatNoFilterHas) {
+  TruthSpec truth = truth_with({"fixed_drift"}, Coupling::servo);
+  const FilterSpec filter = filter_with({"fixed_drift"}, Coupling::eq6);
+  truth.servo.base_amplitude = 1e-3;
+  EXPECT_TRUE(mc::left_out(truth, filter).nothing()) << "it stands still at 0 Hz";
+  truth.servo.base_frequency = 0.2;
+  EXPECT_EQ(mc::left_out(truth, filter).noise,
+            (std::vector<std::string_view>{"servo.base_amplitude"}));
 }
 
 TEST(LeftOut, IsAnEquationThatClosesOverAnotherPart) {

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/study/sections.hpp"
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/own_script.hpp"
@@ -233,40 +232,28 @@ TEST(StudyReport, WritesItsFiles) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(SweptValue, OfATableIsShortAsALabel) {
-  EXPECT_EQ(
-      report::short_value("{ eta = { normal = [\"0 arcsec\", \"5 arcsec\"] }, xi = { normal = [\"0 "
-                          "arcsec\", \"7 arcsec\"] } }"),
-      "eta 5 arcsec, xi 7 arcsec");
-  EXPECT_EQ(report::last_member("{ accelerometer_noise = \"1 ug\", gimbal_noise = \"2 arcsec\" }"),
-            "gimbal_noise");
-  EXPECT_EQ(report::short_value("20 arcsec"), "20 arcsec");
-  EXPECT_EQ(report::short_value("{ preset = \"six\" }"), "six");
-  EXPECT_EQ(report::short_value("{ preset = \"six\", dwell = \"20 min\" }"),
-            "preset six, dwell 20 min");
-  EXPECT_EQ(report::short_value("{ eta = \"5 arcsec\" }"), "eta 5 arcsec");
-  EXPECT_EQ(report::short_value("{ gimbals = true, starts = 3 }"), "gimbals true, starts 3");
-  EXPECT_EQ(report::last_member("20 arcsec"), "");
-}
-
-TEST(SweptNumber, IsFoundInQuantitiesAndDistributions) {
-  EXPECT_DOUBLE_EQ(report::swept_number("20 arcsec")->si, 20.0 * "arcsec"_unit.to_si);
-  EXPECT_EQ(report::swept_number("20 arcsec")->unit.symbol.view(), "arcsec");
-  EXPECT_DOUBLE_EQ(report::swept_number("0.5")->si, 0.5);
-  EXPECT_DOUBLE_EQ(report::swept_number("{ normal = [\"0 arcsec\", \"35 arcsec\"] }")->si,
-                   35.0 * "arcsec"_unit.to_si);
-  EXPECT_DOUBLE_EQ(report::swept_number("-1.5e-2 deg/h/g^2")->si, -1.5e-2 * "deg/h/g^2"_unit.to_si);
-  EXPECT_FALSE(report::swept_number("eq5"));
-  EXPECT_FALSE(report::swept_number("slew12"));
-  EXPECT_FALSE(report::swept_number("free"));
-}
-
 TEST(SweepPictures, AreDrawnForAxesOfNumbersAlone) {
   const auto pictures = test::figures_of({report::sweep(swept())});
   ASSERT_EQ(pictures.size(), 1u);
   EXPECT_NE(pictures[0].caption.find("truth.parameters.eta"), std::string::npos);
   EXPECT_NE(pictures[0].svg.find("truth.parameters.eta [arcsec]"), std::string::npos);
   EXPECT_TRUE(report::sweep(results_of(small_study, 2)).blocks.empty());
+}
+
+/// A sigma is no value, and that about another mean another one.
+TEST(SweepPictures, AreDrawnWhereNumbersMeanTheSameAlone) {
+  const auto drawn = [](const std::string& values) {
+    const auto pictures = test::figures_of({report::sweep(
+        results_of(small_study + "[sweep]\n\"truth.parameters.D_F\" = [" + values + "]\n", 2))});
+    return pictures.empty() ? "" : pictures.front().svg;
+  };
+  const std::string about_zero = R"({ normal = ["0 deg/h", "1 deg/h"] })",
+                    wider = R"({ normal = ["0 deg/h", "2 deg/h"] })",
+                    elsewhere = R"({ normal = ["3 deg/h", "2 deg/h"] })";
+  EXPECT_NE(drawn(about_zero + ", " + wider).find("truth.parameters.D_F, sigma [deg/h]"),
+            std::string::npos);
+  EXPECT_EQ(drawn(about_zero + ", " + elsewhere), "");
+  EXPECT_EQ(drawn(about_zero + ", \"2 deg/h\""), "");
 }
 
 }  // namespace
