@@ -47,8 +47,10 @@ class Thermometer {
   std::optional<SmoothReading> stepped_;
 };
 
-/// A number, as its deviation from the mean of the recording, at both ends of each interval.
-void take_number(const CovariateSpec& c, const Recording& recording, Timeline& timeline) {
+/// A number, as its deviation from the mean of the recording, in each interval: a line with the
+/// mean and the change that it has while the gyros are read.
+void take_number(const CovariateSpec& c, const Recording& recording, CaseTest& test) {
+  Timeline& timeline = test.timeline;
   const Channel* column = recording.find(c.name);
   const Channel* time = recording.find("time");
   if (column == nullptr || time == nullptr) return;
@@ -60,9 +62,13 @@ void take_number(const CovariateSpec& c, const Recording& recording, Timeline& t
   timeline.carried |= c.set();
   timeline.mean[c] = mean;
   const Thermometer thermometer(recording, c);
-  for (Interval& i : timeline.intervals) {
-    i.around0[c] = thermometer.at(i.t0) - mean;
-    i.around1[c] = thermometer.at(i.t1) - mean;
+  for (std::size_t k = 0; k < timeline.intervals.size(); ++k) {
+    Interval& i = timeline.intervals[k];
+    const auto [begin, end] = test.read_over[k];
+    const double at_begin = thermometer.at(begin), at_end = thermometer.at(end),
+                 within = (at_begin + 4.0 * thermometer.at(0.5 * (begin + end)) + at_end) / 6.0;
+    i.around0[c] = within - 0.5 * (at_end - at_begin) - mean;
+    i.around1[c] = within + 0.5 * (at_end - at_begin) - mean;
   }
 }
 
@@ -174,7 +180,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   }
   if (!out.compass.sees_earth) lay_out_one_way(study, signals, out);
   for (const CovariateSpec& c : known_covariates)
-    if (!c.is_vector()) take_number(c, recording, out.test.timeline);
+    if (!c.is_vector()) take_number(c, recording, out.test);
   return out;
 }
 

@@ -41,7 +41,11 @@ S dahl_mean(const S& torque, double turned, const S& x_d) {
   const double x = std::abs(turned);
   if (x == 0.0) return torque;
   const double sign = turned > 0.0 ? 1.0 : -1.0;
-  return sign + (torque - sign) * (1.0 - exp(-x / x_d)) * x_d / x;
+  const S z = x / x_d;
+  // Of small ones exp(-z) - 1 has lost what it differs by.
+  const S share =
+      z < S(1e-3) ? S(1.0) - z * (0.5 - z * (1.0 / 6.0 - z / 24.0)) : (1.0 - exp(-z)) / z;
+  return sign + (torque - sign) * share;
 }
 
 /// The turn over which friction builds up, which a filter's step cannot make zero or negative

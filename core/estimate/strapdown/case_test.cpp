@@ -113,6 +113,7 @@ class Layout {
     i.chain = test_.timeline.chains - 1;
     i.cage = std::exchange(cage_, false);
     test_.timeline.intervals.push_back(i);
+    test_.read_over.emplace_back(i.t0, i.t1);
     acc_.push_back(acc);
   }
 
@@ -204,6 +205,7 @@ class Layout {
         MeanReading row = mean_reading(signals_, ends[half], ends[half + 1]);
         row.gyro = gyro;
         add_rest(row, d);
+        if (half == 0) test_.read_over.back() = {signals_.time[ends[0]], signals_.time[ends[2]]};
         if (half == 1) again_.push_back(test_.timeline.intervals.size() - 1);
       } else {
         carry(d, ends[half + 1], What::held);

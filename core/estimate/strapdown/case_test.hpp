@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/estimate/measured_test.hpp"
@@ -29,7 +30,10 @@ struct CaseTest {
   std::vector<std::size_t> ways;  ///< dwell (from 0) at the end of each way without a gap
   std::size_t ways_with_gap = 0;
   std::vector<bool> still;  ///< of each dwell: a rest to the gyros
-  std::vector<Mat3> R_lp;   ///< attitude at the start of each chain as it was assumed
+  /// Of each interval from when to when its gyros are read [s]: its own ends, but for the half of a
+  /// dwell that has the gyros of the whole (Carry::one_way).
+  std::vector<std::pair<double, double>> read_over;
+  std::vector<Mat3> R_lp;  ///< attitude at the start of each chain as it was assumed
 };
 
 /// The axes of the case are those of the accelerometers: x is the input axis of accelerometer x, y

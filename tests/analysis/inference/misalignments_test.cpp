@@ -41,12 +41,16 @@ TEST(Misalignments, ThatATestDoesNotShowChangeNoEvidence) {
 }
 
 TEST(Misalignments, ThatAreSmallAreNoCoincidence) {
-  // Each scale s has a density at zero that is 1 / s times as large, six times over: the mean over
-  // the five of them. What is seen is known to 1e-6 prior sigmas, the smallest scale to 1e-4 of its
-  // own: six times half of 1e-8 is left out.
+  // Each scale s has a density at zero that is 1 / s times as large, six times over, as long as the
+  // test sees it: the mean over them. What is seen is known to 1e-6 prior sigmas, and the scales
+  // end with the first below a third of that.
   double mean = 0.0;
-  for (const double s : {1.0, 0.3, 0.1, 0.03, 0.01}) mean += std::pow(s, -6.0) / 5.0;
-  EXPECT_NEAR(gain_at_zero(1e12), std::log(mean), 1e-7);
+  std::vector<double> scales{1.0, 0.3};
+  while (scales.back() > 1e-6 / 3.0) scales.push_back(scales[scales.size() - 2] / 10.0);
+  EXPECT_EQ(scales.size(), 14u);
+  for (const double s : scales)
+    mean += std::pow(1.0 + s * s * 1e12, -3.0) * 1e36 / static_cast<double>(scales.size());
+  EXPECT_NEAR(gain_at_zero(1e12), std::log(mean), 1e-6);
 }
 
 TEST(Misalignments, BesideAFreeLambdaAreThoseAtItsValue) {

@@ -43,6 +43,9 @@ struct Restrained {
     filter.active = TermLibrary::completed(only({"P_middle", "P_turn"}));
     for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
       if (filter.active[i]) theta[i] = TermLibrary::specs[i].prior_si().mean();
+    for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+      filter.priors[i] = TermLibrary::specs[i].prior_si();
+    filter.priors[param("P_turn")] = normal(turn, 0.2 * turn);
     theta[param("P_middle")] = P;
     theta[param("P_turn")] = turn;
     layout = make_layout(filter);
@@ -117,6 +120,10 @@ TEST(MemoryMeans, OfFrictionAreThoseOfItsParts) {
   EXPECT_NEAR((dahl_mean(begin, a, x_d) * a + dahl_mean(middle, b, x_d) * b) / (a + b),
               dahl_mean(begin, a + b, x_d), 1e-15);
   EXPECT_NEAR(dahl_mean(begin, -1e-9, x_d), begin, 1e-5);
+  EXPECT_NEAR(dahl_mean(begin, 1e-22, x_d), begin, 1e-15);  // what rounding turns a gimbal by
+  const double at_the_series_end = 1e-3 * x_d;
+  EXPECT_NEAR(dahl_mean(begin, 0.9999999 * at_the_series_end, x_d),
+              dahl_mean(begin, 1.0000001 * at_the_series_end, x_d), 1e-9);
   EXPECT_EQ(dahl_mean(begin, 0.0, x_d), begin);
 }
 

@@ -28,6 +28,8 @@ TEST(TurningCase, DriftByAGimbalAngleIsIntegratedOverTheTurnWithinARow) {
   FilterSpec filter;
   filter.coupling = Coupling::eq6;
   filter.active = TermLibrary::completed(only({"G_c_z", "G_gimbal"}));
+  for (std::size_t k = 0; k < TermLibrary::num_params; ++k)
+    filter.priors[k] = TermLibrary::specs[k].prior_si();
   Theta theta = Theta::Zero();
   for (std::size_t k = 0; k < TermLibrary::num_params; ++k)
     if (filter.active[k]) theta[k] = TermLibrary::specs[k].prior_si().mean();
