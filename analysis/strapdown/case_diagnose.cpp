@@ -1,12 +1,10 @@
 #include "analysis/strapdown/case_diagnose.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
-#include "analysis/strapdown/sensed.hpp"
+#include "analysis/strapdown/consumer_grade.hpp"
+#include "analysis/strapdown/sensed_diagnosis.hpp"
 #include "core/base/check.hpp"
 
 namespace drift::strapdown {
@@ -44,63 +42,6 @@ void rename(Diagnosis& d) {
     if (auto* period = std::get_if<diagnosis::remark::PeriodExplains>(&remark))
       period->equation = equation_of_case(period->equation);
   }
-}
-
-/// Values [library units] as the sensors have them; scales: the platform's (as_sensed).
-void sense(search::CauseParameter& p, const Vec3& scales) {
-  const double unit = TermLibrary::specs[p.param].unit.to_si, value = p.value * unit,
-               side = as_sensed(p.param, value + p.sigma * unit, scales);
-  p.value = as_sensed(p.param, value, scales) / unit;
-  p.sigma = std::abs(side / unit - p.value);
-}
-
-void sense(diagnosis::ShiftedParameter& p, const Vec3& before, const Vec3& after) {
-  search::CauseParameter was{p.key, p.param, p.before, p.sigma_before, p.unit},
-      is{p.key, p.param, p.after, p.sigma_after, p.unit};
-  sense(was, before);
-  sense(is, after);
-  p.before = was.value;
-  p.sigma_before = was.sigma;
-  p.after = is.value;
-  p.sigma_after = is.sigma;
-  p.shift_sigma = (p.after - p.before) / p.sigma_before;
-}
-
-/// All that was found, in the sensors' convention. fit: of the nominal filter.
-void sense(Diagnosis& d, const BatchResult& fit) {
-  const Vec3 before = scales_of(fit.estimate);
-  Vec3 after = before;
-  const auto take = [&](std::size_t param, double value) {
-    const std::size_t axis = param - TermLibrary::index("s_x");
-    if (axis < 3)
-      after[static_cast<Eigen::Index>(axis)] = value * TermLibrary::specs[param].unit.to_si;
-  };
-  for (const diagnosis::ShiftedParameter& p : d.fit.shifted) take(p.param, p.after);
-  for (const search::Cause& cause : d.causes)
-    for (const search::CauseParameter& p : cause.parameters) take(p.param, p.value);
-  for (search::Cause& cause : d.causes)
-    for (search::CauseParameter& p : cause.parameters) sense(p, after);
-  for (diagnosis::ShiftedParameter& p : d.fit.shifted) sense(p, before, after);
-  for (search::CandidateScore& c : d.candidates)
-    if (c.param) {
-      search::CauseParameter p{c.label, *c.param, c.amplitude, c.sigma, c.unit};
-      sense(p, before);
-      c.amplitude = p.value;
-      c.sigma = p.sigma;
-    }
-}
-
-/// Of D_I_x, D_I_y and D_I_z as causes what differs between them.
-void take_common_drift_out(Diagnosis& d) {
-  std::vector<search::CauseParameter*> of_input_axis;
-  for (search::Cause& cause : d.causes)
-    for (search::CauseParameter& p : cause.parameters)
-      if (TermLibrary::specs[p.param].group.view() == "D_I") of_input_axis.push_back(&p);
-  if (of_input_axis.size() < 3) return;
-  double mean = 0.0;
-  for (const search::CauseParameter* p : of_input_axis) mean += p->value / 3.0;
-  for (search::CauseParameter* p : of_input_axis) p->value -= mean;
-  d.remarks.emplace_back(diagnosis::remark::CommonDriftUnseen{});
 }
 
 /// What held-out dwells and turns are missed by, without and with the causes.
@@ -159,7 +100,7 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
   d.of_case = true;
   d.errors = errors_of(d, id, study.site.gravity);
   rename(d);
-  sense(d, id.fits.front().fit);
+  sense(d, id.fits.front().fit.estimate);
   if (!id.study.compass.sees_earth) take_common_drift_out(d);
   for (auto& remark : d.remarks)
     if (auto* other = std::get_if<diagnosis::remark::OtherEquation>(&remark)) {
@@ -167,7 +108,9 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
       other->of_case = true;
     }
   remark(d, id);
+  // As it was fitted: of gyros that do not see the Earth a consumer's priors (case_filter).
   d.nominal = nominal;
+  if (!id.study.compass.sees_earth) take_consumer_priors(d.nominal);
   // Another equation is the other one: of what lies between the two a case shows (1 - lambda) E
   // alone.
   std::vector<search::Cause> effects = d.causes;
@@ -175,7 +118,7 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
   for (search::Cause& c : d.causes)
     if (closure(c)) c.parameters.clear();
   const bool other_equation = std::erase_if(effects, closure) > 0;
-  d.patched = diagnosis::patched_filter(nominal, effects);
+  d.patched = diagnosis::patched_filter(nominal, effects, d.nominal);
   if (other_equation) d.patched.coupling = facts(nominal.coupling).other.value_or(nominal.coupling);
   take_latitude(d, id);
   return d;

@@ -61,19 +61,28 @@ Node parsed(const mc::Study& study) {
 }  // namespace
 
 FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes) {
+  FilterSpec library;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    library.priors[i] = TermLibrary::specs[i].prior_si();
+  return patched_filter(nominal, causes, library);
+}
+
+FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes,
+                          const FilterSpec& believed) {
   FilterSpec patched = nominal;
   for (const search::Cause& cause : causes)
     for (const search::CauseParameter& p : cause.parameters) {
       patched.active.set(p.param);
       const ParamSpec& spec = TermLibrary::specs[p.param];
       const double value = p.value * spec.unit.to_si;
-      patched.priors[p.param] = p.profiled ? fixed(value) : with_room_for(spec.prior_si(), value);
+      patched.priors[p.param] =
+          p.profiled ? fixed(value) : with_room_for(believed.believed(p.param), value);
       if (p.param == closure_param) patched.coupling = family_of(patched.coupling);
     }
   // A term comes with its time constant and the like, known until the study says otherwise.
   const ParamMask whole = TermLibrary::completed(patched.active);
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
-    if (whole[i] && !patched.active[i]) patched.priors[i] = TermLibrary::specs[i].prior_si();
+    if (whole[i] && !patched.active[i]) patched.priors[i] = believed.believed(i);
   patched.active = whole;
   return patched;
 }

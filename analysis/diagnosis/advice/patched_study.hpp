@@ -10,9 +10,11 @@ namespace drift::diagnosis {
 
 /// The nominal filter with the parameters of some causes in it. What a cause found by profiling
 /// (time constants, onsets, phases) becomes a known constant, everything else is estimated with the
-/// library's prior, widened to the size found where that is beyond three of its sigmas. A cause
-/// with lambda makes the coupling "lambda".
+/// prior that `believed` has of it, the library's by default, widened to the size found where that
+/// is beyond three of its sigmas. A cause with lambda makes the coupling "lambda".
 FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes);
+FilterSpec patched_filter(const FilterSpec& nominal, const std::vector<search::Cause>& causes,
+                          const FilterSpec& believed);
 
 /// A filter that holds causes (those of set 0) with the prior of each size as wide as what was
 /// found where that is beyond three of its sigmas: the narrow one would hold the size back, and

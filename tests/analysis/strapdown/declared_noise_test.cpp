@@ -32,7 +32,9 @@ TEST(DeclaredNoise, AnAsymmetryIsNoLargerNoiseOfTheGyros) {
     EXPECT_EQ(d["causes"][0]["term"], "torquer_asymmetry");
     EXPECT_EQ(d["causes"][0]["axis"], "y");
     const auto& p = d["causes"][0]["parameters"][0];
-    EXPECT_NEAR(std::abs(p["value"].get<double>()), ppm, 4.0 * p["sigma"].get<double>());
+    EXPECT_NEAR(p["value"].get<double>(), ppm, 4.0 * p["sigma"].get<double>());
+    EXPECT_LT(p["interval_95"][0].get<double>(), p["value"].get<double>());
+    EXPECT_GT(p["interval_95"][1].get<double>(), p["value"].get<double>());
     // The table of candidates is in the sensors' convention, too: of the same sign.
     const auto line = std::ranges::find_if(
         d["candidates"], [](const auto& c) { return c["label"] == "torquer_asymmetry.y"; });
