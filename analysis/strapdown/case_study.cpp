@@ -9,6 +9,7 @@
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/held_rows.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
+#include "analysis/strapdown/dead_channels.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/layout.hpp"
@@ -127,6 +128,17 @@ void remark_lone_samples(const Signals& signals, const Recording& recording,
                                   all.size() - most_said));
 }
 
+/// What is lost to samples that are missing.
+void remark_gaps(const CaseTest& test, std::vector<std::string>& remarks) {
+  if (test.ways_with_gap == 0) return;
+  const std::size_t all = test.ways.size() + test.ways_with_gap;
+  remarks.push_back(
+      fmt::format("{} of the {} turns between dwells {} left out for gaps, two samples or more "
+                  "that are missing "
+                  "in a row: nothing carries the attitude across",
+                  test.ways_with_gap, all, test.ways_with_gap == 1 ? "is" : "are"));
+}
+
 bool levelled_by_calibrated(const CaseStudy& of) {
   return of.start[TermLibrary::index("K0_x")] != 0.0;
 }
@@ -156,11 +168,9 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   const Signals signals = signals_of(recording);
   out.search = find_dwells(signals, {.static_min = study.static_min});
   if (out.search.dwells.empty())
-    throw InputError(
-        ExitCode::recording,
-        fmt::format("{}: no dwell of {} s in which both sensors are quiet (one or more is "
-                    "expected). Rest the case, or lower plan.static_min",
-                    out.source, study.static_min));
+    throw InputError(ExitCode::recording,
+                     fmt::format("{}: {}", out.source, why_no_dwell(signals, study.static_min)));
+  require_live_accelerometers(out.search.dwells, out.source);
   if (const std::string wrong =
           preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));
       !wrong.empty())
@@ -179,6 +189,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
     azimuth = out.compass.azimuth;
   }
   if (!out.compass.sees_earth) lay_out_one_way(study, signals, out);
+  remark_gaps(out.test, out.remarks);
   for (const CovariateSpec& c : known_covariates)
     if (!c.is_vector()) take_number(c, recording, out.test);
   return out;

@@ -113,6 +113,21 @@ std::string errors_sentence(const CaseFit& fit) {
                      up || gyro ? "." : "");
 }
 
+/// " (16 more are left out for gaps)"; empty: none is.
+std::string gaps_text(const strapdown::CaseStudy& s) {
+  const std::size_t n = s.test.ways_with_gap;
+  return n == 0 ? "" : fmt::format(" ({} more {} left out for gaps)", n, n == 1 ? "is" : "are");
+}
+
+/// What diagnose does for a recording that is a misfit, and for one that is none.
+std::string next_of(const CaseIdentification& id) {
+  if (id.latitude) return latitude_next(*id.latitude, "identify");
+  return fmt::format("Next: driftscope diagnose, on the same study and recording, says {}.",
+                     identification::misfit(id.fits.front().fit.estimate)
+                         ? "what is missing, in the model or in the noise"
+                         : "whether an effect is missing from the model");
+}
+
 InBrief in_brief(const CaseIdentification& id) {
   const CaseFit& first = id.fits.front();
   const EstimateResult& estimate = first.fit.estimate;
@@ -144,8 +159,9 @@ InBrief in_brief(const CaseIdentification& id) {
     brief.verdict = fmt::format("Found: one rest of {:.0f} s and no turn; {}.",
                                 dwells.front().duration(), told);
   else
-    brief.verdict = fmt::format("Found: {} and {}; {}, {}.", counted(dwells.size(), "dwell"),
-                                counted(id.study.test.ways.size(), "turn"), told, fits);
+    brief.verdict =
+        fmt::format("Found: {} and {}{}; {}, {}.", counted(dwells.size(), "dwell"),
+                    counted(id.study.test.ways.size(), "turn"), gaps_text(id.study), told, fits);
   brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad : Tone::good;
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
@@ -157,10 +173,7 @@ InBrief in_brief(const CaseIdentification& id) {
   if (!unseen.empty())
     brief.more.add(Weight::note,
                    fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
-  brief.next =
-      id.latitude
-          ? latitude_next(*id.latitude, "identify")
-          : "Next: driftscope diagnose, on the same study and recording, says what is missing.";
+  brief.next = next_of(id);
   return brief;
 }
 

@@ -27,7 +27,8 @@ double row_length(const Signals& signals, const std::vector<Dwell>& dwells) {
 
 bool without_gap(const Signals& s, std::size_t first, std::size_t last) {
   for (std::size_t k = first; k <= last; ++k)
-    if (!s.measured(k) || (k > first && s.time[k] - s.time[k - 1] > 2.5 * s.interval)) return false;
+    if (!s.measured(k) || (k > first && s.time[k] - s.time[k - 1] > longest_step * s.interval))
+      return false;
   return true;
 }
 

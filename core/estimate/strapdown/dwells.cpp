@@ -31,7 +31,7 @@ struct Moments {
 };
 
 bool continues(const Signals& s, std::size_t k) {
-  return s.time[k] - s.time[k - 1] < 2.5 * s.interval;
+  return s.time[k] - s.time[k - 1] < longest_step * s.interval;
 }
 
 Spread spreads(const Signals& s, std::size_t half) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/base/check.hpp"
 #include "core/stats/median.hpp"
@@ -56,6 +57,21 @@ void check_time(const Recording& recording, const std::vector<double>& time) {
     }
 }
 
+/// The line between the neighbours of a lone empty cell, of one sensor axis: what a whole row that
+/// is lost is bridged by on the way to a dwell.
+void bridge_lone_cells(const std::vector<double>& time, double interval,
+                       std::vector<Vec3>& sensor) {
+  const std::vector<Vec3> given = sensor;
+  for (std::size_t k = 1; k + 1 < time.size(); ++k) {
+    const double across = time[k + 1] - time[k - 1];
+    if (given[k].allFinite() || !(across < longest_step * interval)) continue;
+    const double part = (time[k] - time[k - 1]) / across;
+    for (int a = 0; a < 3; ++a)
+      if (!std::isfinite(given[k][a]))
+        sensor[k][a] = given[k - 1][a] + part * (given[k + 1][a] - given[k - 1][a]);
+  }
+}
+
 }  // namespace
 
 Signals signals_of(const Recording& recording) {
@@ -73,6 +89,8 @@ Signals signals_of(const Recording& recording) {
   std::vector<double> steps(n - 1);
   for (std::size_t k = 1; k < n; ++k) steps[k - 1] = signals.time[k] - signals.time[k - 1];
   signals.interval = stats::upper_median(std::move(steps));
+  bridge_lone_cells(signals.time, signals.interval, signals.gyro);
+  bridge_lone_cells(signals.time, signals.interval, signals.acc);
   return signals;
 }
 

@@ -7,6 +7,10 @@
 
 namespace drift::strapdown {
 
+/// Samples farther apart than so many intervals have a gap between them: one lost row is bridged,
+/// two in a row are not.
+inline constexpr double longest_step = 2.5;
+
 /// The samples of a strapdown recording: sensors fixed to the case, as they were read.
 struct Signals {
   std::vector<double> time;  ///< end of each sample interval [s]
@@ -19,6 +23,8 @@ struct Signals {
 };
 
 /// Takes the channels time, gyro_x..z and acc_x..z of a recording (core/docs/recording.md).
+/// An empty cell whose neighbours in its channel are measured and no longest_step apart is bridged
+/// by the line between them, as the row would be if it were lost; more in a row stay not measured.
 /// InputError (recording) lists every channel that is missing or has another dimension, and time
 /// that does not increase.
 Signals signals_of(const Recording& recording);

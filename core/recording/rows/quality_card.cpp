@@ -205,6 +205,10 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
+  // A platform's gimbals are not read while it slews, which is no loss.
+  if (kind == RecordingKind::strapdown)
+    for (const ChannelQuality& q : card.channels)
+      if (is_sensor(q) && q.measured > 0) card.empty += q.missing;
   // In the order of harm, which those of one weight keep.
   remark_repeats(recording, card);
   remark_gaps(card);
@@ -228,6 +232,7 @@ std::string to_text(const QualityCard& card) {
                      range, digits(card.jitter));
   out += fmt::format("gaps {}", gap_text(card.gaps));
   if (!card.gaps.empty()) out += fmt::format(", about {:.0f} samples lost", card.lost);
+  if (card.empty > 0) out += fmt::format("; cells without a number: {}", card.empty);
   if (card.positions > 0) out += fmt::format("; between positions {}", gap_text(card.between));
   out += fmt::format("\n{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}{:>9}{:>8}{:>6}\n", "channel", "unit",
                      "min", "max", "mean", "sd", "missing", "stuck", "sat");

@@ -41,6 +41,7 @@ struct QualityCard {
   std::vector<Gap> gaps;     ///< within a position: longer than 1.5 intervals usual in that stretch
   std::vector<Gap> between;  ///< likewise from one position to the next
   double lost = 0.0;         ///< samples that would fill the gaps within positions
+  std::size_t empty = 0;     ///< cells without a number of sensors on a case that measure at all
   std::vector<ChannelQuality> channels;
   WeighedTexts remarks;  ///< sentences about what looks odd, or is assumed
 };

@@ -74,13 +74,35 @@ TEST(StrapdownDwells, ASteadyTurnAboutTheVerticalIsNoRest) {
   for (const Dwell& d : search.dwells) EXPECT_FALSE(d.start > start && d.end < end);
 }
 
-TEST(StrapdownDwells, ASampleNotMeasuredEndsADwell) {
+TEST(StrapdownDwells, TwoSamplesNotMeasuredEndADwell) {
   Recording recording = strapdown_recording({.dwells = 1, .rest = 20.0}, Theta::Zero());
-  recording.channels[2].values[1000] = std::numeric_limits<double>::quiet_NaN();
+  for (const std::size_t k : {1000u, 1001u})
+    recording.channels[2].values[k] = std::numeric_limits<double>::quiet_NaN();
   const DwellSearch search = find_dwells(signals_of(recording), {});
   ASSERT_EQ(search.dwells.size(), 2u);
   EXPECT_LT(search.dwells[0].end, 10.0);
   EXPECT_GT(search.dwells[1].start, 10.0);
+}
+
+TEST(StrapdownSignals, ALoneEmptyCellIsOnTheLineBetweenItsNeighboursAsALostRowWouldBe) {
+  Recording r = strapdown_recording({.dwells = 1}, Theta::Zero());
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  auto& time = r.channels[0].values;
+  auto &gyro = r.channels[1].values, &acc = r.channels[6].values;
+  for (std::size_t k = 0; k < time.size(); ++k) gyro[k] = acc[k] = 0.3 + 2.0 * time[k];
+  for (const std::size_t k : {0u, 20u, 40u, 41u, 60u, 80u}) gyro[k] = none;
+  acc[30] = none;
+  for (auto& c : r.channels) {  // the row beside an empty cell is lost, and one far from any
+    c.values.erase(c.values.begin() + 100);
+    c.values.erase(c.values.begin() + 61);
+  }
+  r.lines.resize(r.rows());
+  const Signals s = signals_of(r);
+  for (const std::size_t k : {20u, 79u})
+    EXPECT_NEAR(s.gyro[k].x(), 0.3 + 2.0 * s.time[k], 1e-12) << k;
+  EXPECT_NEAR(s.acc[30].z(), 0.3 + 2.0 * s.time[30], 1e-12);
+  EXPECT_EQ(s.gyro[20].y(), r.channels[2].values[20]);
+  for (const std::size_t k : {0u, 40u, 41u, 60u}) EXPECT_FALSE(s.measured(k)) << k;
 }
 
 TEST(StrapdownSignals, EveryMissingChannelIsNamed) {
