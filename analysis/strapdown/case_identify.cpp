@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "analysis/strapdown/case_latitude.hpp"
 #include "analysis/strapdown/sensed.hpp"
+#include "analysis/strapdown/walking_drift.hpp"
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
 
@@ -40,9 +42,10 @@ CaseIdentification identify_case(const mc::Study& study, CaseStudy of) {
   const EarthRate earth = out.study.compass.sees_earth ? EarthRate::seen : EarthRate::hidden;
   for (const FilterSpec& filter : study.filters) {
     const FilterSpec seen = case_filter(filter, out.study);
-    const BatchResult fit = fit_batch(seen, out.study.measured(), start_of(seen, out.study));
-    out.fits.push_back({findings_of(as_sensed(fit.estimate), earth),
-                        scores_of(seen, fit, out.study, out.division, out.seed), filter.name,
+    BatchResult fit = fit_batch(seen, out.study.measured(), start_of(seen, out.study));
+    CaseScores scores = scores_of(seen, fit, out.study, out.division, out.seed);
+    fit.estimate = under_walk(seen, out.study.measured(), fit);
+    out.fits.push_back({findings_of(as_sensed(fit.estimate), earth), std::move(scores), filter.name,
                         filter.coupling, fit});
   }
   out.eq5_gain = nan_value;

@@ -19,6 +19,9 @@ using config::Section;
 constexpr Named<LoopEstimate> loop_estimates[] = {{"given", LoopEstimate::given},
                                                   {"feedback", LoopEstimate::feedback}};
 
+/// [deg/h/sqrt(h)] A gyro that walks by the 20 deg/s of a micromechanical one in an hour.
+constexpr double most_walk = 1e5;
+
 /// Coupling, terms, parameters and noise: what truth and filters have in common.
 void read_model(Section& section, ModelSpec& spec) {
   section.require("coupling",
@@ -32,8 +35,9 @@ void read_model(Section& section, ModelSpec& spec) {
                spec.initial_attitude);
   section.read(Option{"angle_random_walk", unit::deg_per_sqrt_h, 0.0, 100.0, "of each gyro"},
                spec.noise.angle_random_walk);
-  section.read(Option{"drift_random_walk", unit::deg_per_h_per_sqrt_h, 0.0, 100.0, "of each D_F"},
-               spec.noise.drift_random_walk);
+  section.read(
+      Option{"drift_random_walk", unit::deg_per_h_per_sqrt_h, 0.0, most_walk, "of each D_F"},
+      spec.noise.drift_random_walk);
 }
 
 void refuse_unused(Section& section, std::string_view table, std::string_view coupling) {

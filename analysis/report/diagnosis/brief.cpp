@@ -29,6 +29,20 @@ std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
   return std::nullopt;
 }
 
+/// Where nothing is missing but noise of a kind that a study can declare: what it is to declare, so
+/// that the sigmas of identify hold it.
+std::string noise_to_declare(const Diagnosis& d) {
+  if (d.verdict != Verdict::consistent || !d.of_case) return "";
+  for (const inference::NoiseFinding& f : d.noise)
+    if (f.significant && f.component == "drift_random_walk")
+      return fmt::format(
+          "Next: identify with the walk that was found, without which its sigmas are too small: "
+          "--set {}.",
+          shell_word(fmt::format("filter.{}.drift_random_walk={} {}", d.nominal.name,
+                                 number_text(f.value, 2), f.unit)));
+  return "";
+}
+
 /// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
 std::string next_step(const Diagnosis& d, bool off_zero) {
   if (labels_are_late(d))
@@ -49,6 +63,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
     return fmt::format(
         "Next: diagnose again under the other equation, and see what is missing: --set {}.",
         shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
+  if (const std::string noise = noise_to_declare(d); !noise.empty()) return noise;
   if (d.proposal)
     return "Next: look for what acts there and then. With the [[term]] of proposal.toml in the "
            "study, another recording tells whether it comes again.";
