@@ -22,6 +22,7 @@
 #include "analysis/search/other_equation.hpp"
 #include "analysis/search/posterior.hpp"
 #include "core/base/check.hpp"
+#include "core/base/nan.hpp"
 #include "core/estimate/starts.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -203,6 +204,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (judged.one_gyro)
     d.p_value =
         std::min(d.p_value, NoiseLimits::one_gyro_tries * std::exp(-0.5 * judged.one_gyro->gain));
+  if (judged.of_no_noise) d.p_value = std::min(d.p_value, *judged.of_no_noise);
   d.where = std::move(place.where);
   d.signals = std::move(place.signals);
   d.causes = std::move(causes.causes);
@@ -213,6 +215,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.other_equation_gain = other_equation_gain(found, judged, test);
   d.not_examined = not_examined(nominal, d.causes, test.timeline);
   d.probabilities = probabilities(found, posterior, d.noise);
+  if (judged.of_no_noise)  // all of them take the noise for known
+    d.probabilities = {nan_value, nan_value, nan_value, {}};
   d.nominal = nominal_filter;
   d.patched = best && alarm
                   ? started_where_found(with_room_for_causes(best->filter, d.causes), d.causes)

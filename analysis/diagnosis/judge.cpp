@@ -1,12 +1,34 @@
 #include "analysis/diagnosis/judge.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "analysis/diagnosis/held_out/held_out.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
 #include "analysis/inference/thresholds.hpp"
 
 namespace drift::diagnosis {
+namespace {
+
+/// Twice as large noise, where some of it is known beforehand (rounding) and not estimated; and the
+/// odds at which one more factor of noise is taken for none.
+constexpr double far_off = 4.0, log_far_likelier = 13.8;  // [of chi-square per row], log of 10^6
+
+/// How much likelier (log) the rows are with a factor of noise more than was found, less what one
+/// more number costs. Of n rows with a chi-square of n x the best factor is x, and gains
+/// n (x - 1 - log x) / 2. Infinite where the likelihood is not a number.
+double log_gain_of_more_noise(const inference::Marginal& m) {
+  if (m.rows == 0) return 0.0;
+  if (!std::isfinite(m.log_likelihood2())) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(m.rows);
+  const double x = m.chi2 / n;
+  if (x < far_off) return 0.0;
+  return 0.5 * n * (x - 1.0 - std::log(x)) + inference::NoisePrior::log_not_as_declared() -
+         0.5 * std::log(n);
+}
+
+}  // namespace
 
 std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
                                   const search::Refit& best, const search::Search& found) {
@@ -35,7 +57,10 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   Judged out;
   if (!found.significant) {
     out.one_gyro = noise_of_one_axis(nominal);
-    if (out.one_gyro) out.verdict = Verdict::unexplained;
+    if (const double gain = log_gain_of_more_noise(nominal.projector->marginal());
+        gain > log_far_likelier)
+      out.of_no_noise = std::exp(-gain);
+    if (out.one_gyro || out.of_no_noise) out.verdict = Verdict::unexplained;
     return out;
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();

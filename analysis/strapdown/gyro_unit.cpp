@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "analysis/preparation/input_thresholds.hpp"
@@ -48,7 +49,7 @@ std::vector<double> errors(const Signals& s, const std::vector<Dwell>& dwells, c
 
 struct Mistake {
   const char* words;
-  double times;
+  double times;  ///< the rates; or the times, which does the same to turns
 };
 
 /// Gyros or accelerometers exchanged or reversed: some turns are nothing like what they should be,
@@ -101,22 +102,26 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
   if (as_declared < Limits::alike) return require_columns(signals, dwells, source, declared);
   constexpr double deg = detail::deg;
   constexpr Mistake mistakes[] = {
-      {"unit: the numbers look like [rad/s], not [deg/s]", 1.0 / deg},
-      {"unit: the numbers look like [deg/s], not [rad/s]", deg},
-      {"unit: the numbers look like [deg/s], not [deg/h]", 3600.0},
-      {"unit: the numbers look like [rad/s], not [deg/h]", 3600.0 / deg},
-      {"unit: the numbers look like [deg/h], not [deg/s]", 1.0 / 3600.0},
-      {"unit: the numbers look like [deg/h], not [rad/s]", deg / 3600.0},
-      {"sign: put a - before the columns in [recording]", -1.0}};
+      {"their unit: the numbers look like [rad/s], not [deg/s]", 1.0 / deg},
+      {"their unit: the numbers look like [deg/s], not [rad/s]", deg},
+      {"their unit: the numbers look like [deg/s], not [deg/h]", 3600.0},
+      {"their unit: the numbers look like [rad/s], not [deg/h]", 3600.0 / deg},
+      {"their unit: the numbers look like [deg/h], not [deg/s]", 1.0 / 3600.0},
+      {"their unit: the numbers look like [deg/h], not [rad/s]", deg / 3600.0},
+      {"their sign: put a - before the columns in [recording]", -1.0},
+      {"the unit of the times: they look like [ms], not [s]. Write time [ms] in the header", 1e-3},
+      {"the unit of the times: they look like [us], not [s]. Write time [us] in the header", 1e-6},
+      {"the unit of the times: they look like [s], not [ms]. Write time [s] in the header", 1e3}};
   for (const Mistake& m : mistakes) {
     const double otherwise = stats::upper_median(errors(signals, dwells, {m.times}));
     if (otherwise > std::min(Limits::alike, Limits::far_better * as_declared)) continue;
     throw InputError(
         ExitCode::recording,
-        fmt::format("{}:gyro_x: the gyros turn gravity from rest to rest by nothing like what the "
+        fmt::format("{}:{}: the gyros turn gravity from rest to rest by nothing like what the "
                     "accelerometers see: the error is {:.0f} % of the turn, the median of {} "
-                    "(expected a few per cent, and it is {:.1f} % after this). Correct their {}",
-                    source, 100.0 * as_declared, declared.size(), 100.0 * otherwise, m.words));
+                    "(expected a few per cent, and it is {:.1f} % after this). Correct {}",
+                    source, std::string_view(m.words).starts_with("their") ? "gyro_x" : "time",
+                    100.0 * as_declared, declared.size(), 100.0 * otherwise, m.words));
   }
   require_columns(signals, dwells, source, declared);
 }

@@ -16,6 +16,7 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/too_large.hpp"
 #include "analysis/report/diagnosis/verdict_openings.hpp"
+#include "analysis/report/diagnosis/words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -68,14 +69,6 @@ bool wanders(const Diagnosis& d) {
              return c->name == f.component;
            });
   });
-}
-
-std::string held_out_text(const Diagnosis& d, bool several) {
-  const HeldOut& held = d.fit.held_out;
-  if (held.folds.empty() && held.recordings.empty())
-    return "nothing was held out of the fit to judge it";
-  return fmt::format("with {}, held-out {} are predicted {}", several ? "them" : "it",
-                     d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better");
 }
 
 /// Beside a cause, where what the library does not know is more probable than not.
@@ -184,16 +177,7 @@ std::string verdict_alone(const Diagnosis& d) {
   return fmt::format(
       "{} ({}) and {}; it sits in the {}{}.{}", something_missing, false_alarm, unknown_text(d),
       d.where.equation.empty() ? "test as a whole" : equation_in_words(d.where.equation),
-      located_shape_text(d), d.proposal ? "" : noise);
-}
-
-/// How a recording on a case is predicted, without the cause and with it.
-std::string errors_text(const Diagnosis& d) {
-  if (d.errors.empty() || !d.has_patch) return "";
-  std::vector<std::string> numbers;
-  for (const ErrorOfKind& k : d.errors)
-    numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
-  return fmt::format(" Error on held-out data: {}.", fmt::join(numbers, ", "));
+      located_shape_text(d) + misfit_text(d), d.proposal ? "" : noise);
 }
 
 std::string nearest_text(const NearestKnown& near, Instrument instrument) {

@@ -197,4 +197,37 @@ std::string held_out_sentence(const HeldOut& held) {
   return out;
 }
 
+std::string held_out_text(const diagnosis::Diagnosis& d, bool several) {
+  constexpr double grown = 1.05;  // what an error may grow by unsaid
+  const diagnosis::HeldOut& held = d.fit.held_out;
+  if (held.folds.empty() && held.recordings.empty())
+    return "nothing was held out of the fit to judge it";
+  // The score weighs each error by how surely it was predicted; the errors themselves are not.
+  const bool some_grow = held.improves && d.has_patch &&
+                         std::ranges::any_of(d.errors, [](const diagnosis::ErrorOfKind& k) {
+                           return k.after > grown * k.before;
+                         });
+  return fmt::format("with {}, held-out {} are predicted {}{}", several ? "them" : "it",
+                     d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better",
+                     some_grow
+                         ? fmt::format(" by their score (log score {:+.1f}±{:.1f}, errors weighed "
+                                       "by their sigmas), though not all errors become smaller",
+                                       held.log_score_gain, held.log_score_gain_sigma)
+                         : "");
+}
+
+std::string misfit_text(const diagnosis::Diagnosis& d) {
+  if (d.nearest_known || !(d.fit.chi2_per_dof_before > 4.0 * d.fit.band_high)) return "";
+  return fmt::format(", chi-square per degree of freedom is {:.3g} where noise makes 1",
+                     d.fit.chi2_per_dof_before);
+}
+
+std::string errors_text(const diagnosis::Diagnosis& d) {
+  if (d.errors.empty() || !d.has_patch) return "";
+  std::vector<std::string> numbers;
+  for (const diagnosis::ErrorOfKind& k : d.errors)
+    numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
+  return fmt::format(" Error on held-out data: {}.", fmt::join(numbers, ", "));
+}
+
 }  // namespace drift::report

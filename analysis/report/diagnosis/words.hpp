@@ -60,4 +60,15 @@ std::string where_sentence(const diagnosis::Where& where);
 /// Whether the cause made held-out prediction better; empty without held-out data.
 std::string held_out_sentence(const diagnosis::HeldOut& held_out);
 
+/// "with it, held-out positions are predicted better". That goes by the log score, which weighs
+/// each error by how surely it was predicted: where errors_text() shows one that grows, so it says.
+/// several: causes.
+std::string held_out_text(const diagnosis::Diagnosis& diagnosis, bool several);
+
+/// How a recording on a case is predicted, without the cause and with it.
+std::string errors_text(const diagnosis::Diagnosis& diagnosis);
+
+/// How badly the nominal model fits, where no effect says what it would become.
+std::string misfit_text(const diagnosis::Diagnosis& diagnosis);
+
 }  // namespace drift::report
