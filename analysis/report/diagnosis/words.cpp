@@ -217,7 +217,9 @@ std::string held_out_text(const diagnosis::Diagnosis& d, bool several) {
 }
 
 std::string misfit_text(const diagnosis::Diagnosis& d) {
-  if (d.nearest_known || !(d.fit.chi2_per_dof_before > 4.0 * d.fit.band_high)) return "";
+  constexpr double badly = 4.0;  // times the band of 95 %
+  const double band = d.fit.band_high;
+  if (d.nearest_known || !(band > 0.0) || !(d.fit.chi2_per_dof_before > badly * band)) return "";
   return fmt::format(", chi-square per degree of freedom is {:.3g} where noise makes 1",
                      d.fit.chi2_per_dof_before);
 }
