@@ -130,9 +130,11 @@ TEST(MemoryMeans, OfFrictionAreThoseOfItsParts) {
 TEST(MemoryMeans, InPlansStepsOfMinutesAreAsGoodAsFineOnes) {
   const Restrained m;
   const DriftModel model = m.filter.model();
-  for (const auto& [preset, mode] : {std::pair{"slew12", CommandLaw::free},
-                                     {"slew12", CommandLaw::level},
-                                     {"casespin", CommandLaw::level}}) {
+  // Where a gimbal reverses within a step its rate is not even in the two seconds that friction
+  // takes: 0.03 arcsec each, at P of 0.03 arcsec/s. `casespin` reverses them dozens of times.
+  for (const auto& [preset, mode, bound] : {std::tuple{"slew12", CommandLaw::free, 0.1},
+                                            {"slew12", CommandLaw::level, 0.1},
+                                            {"casespin", CommandLaw::level, 0.5}}) {
     SCOPED_TRACE(preset);
     const Timeline coarse = preset_timeline(preset, mode, 3600.0, row);
     Timeline fine = coarse;
@@ -149,7 +151,7 @@ TEST(MemoryMeans, InPlansStepsOfMinutesAreAsGoodAsFineOnes) {
       worst = std::max(
           worst, (a[coarse.intervals[i].last_node()] - b[fine.intervals[i].last_node()]).norm());
 
-    EXPECT_LT(worst, 0.05 * arcsec);
+    EXPECT_LT(worst, bound * arcsec);
   }
 }
 
