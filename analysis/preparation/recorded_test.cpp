@@ -86,7 +86,7 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
   }
   RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends), field};
   if (several.size() > 1) test.timeline.recordings = std::move(several);
-  mc::resolve_own_terms(test.timeline, study);
+  mc::resolve_own_terms_of_filters(test.timeline, study);
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
     throw InputError(
         ExitCode::recording,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/strapdown/walking_drift.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::strapdown {
@@ -50,11 +51,11 @@ std::optional<LatitudeDoubt> fitted_at(double latitude, const mc::Study& study, 
   FilterSpec filter = case_filter(study.filters.front(), of);
   filter.active.set(d_lat);
   filter.priors[d_lat] = normal(0.0, SiteLimits::bent_deg * unit::deg.to_si);
-  const EstimateResult after =
-      (&of == &id.study
-           ? fit_batch_from(filter, of.measured(), theta_of(filter, declared), declared.psi0_l)
-           : fit_batch(filter, of.measured(), start_of(filter, of)))
-          .estimate;
+  const EstimateResult after = under_walk(  // as identify_case() has the other
+      filter, of.measured(),
+      &of == &id.study
+          ? fit_batch_from(filter, of.measured(), theta_of(filter, declared), declared.psi0_l)
+          : fit_batch(filter, of.measured(), start_of(filter, of)));
   const ParameterEstimate* rest = after.find(d_lat);
   if (rest == nullptr || std::abs(rest->value) > 2.0 * filter.priors[d_lat].sigma())
     return std::nullopt;

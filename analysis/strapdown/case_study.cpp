@@ -49,7 +49,7 @@ class Thermometer {
 };
 
 /// A number, as its deviation from the mean of the recording, in each interval: a line with the
-/// mean and the change that it has while the gyros are read.
+/// mean and the rate that it has while the gyros are read.
 void take_number(const CovariateSpec& c, const Recording& recording, CaseTest& test) {
   Timeline& timeline = test.timeline;
   const Channel* column = recording.find(c.name);
@@ -68,8 +68,9 @@ void take_number(const CovariateSpec& c, const Recording& recording, CaseTest& t
     const auto [begin, end] = test.read_over[k];
     const double at_begin = thermometer.at(begin), at_end = thermometer.at(end),
                  within = (at_begin + 4.0 * thermometer.at(0.5 * (begin + end)) + at_end) / 6.0;
-    i.around0[c] = within - 0.5 * (at_end - at_begin) - mean;
-    i.around1[c] = within + 0.5 * (at_end - at_begin) - mean;
+    const double change = (at_end - at_begin) * i.length() / (end - begin);
+    i.around0[c] = within - 0.5 * change - mean;
+    i.around1[c] = within + 0.5 * change - mean;
   }
 }
 

@@ -109,9 +109,14 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
       {"their unit: the numbers look like [deg/h], not [deg/s]", 1.0 / 3600.0},
       {"their unit: the numbers look like [deg/h], not [rad/s]", deg / 3600.0},
       {"their sign: put a - before the columns in [recording]", -1.0},
-      {"the unit of the times: they look like [ms], not [s]. Write time [ms] in the header", 1e-3},
+      {"the unit of the times: they look like [ms], not [s]. Write time [ms] in the header; or "
+       "that "
+       "of the gyros, whose numbers look like mdeg/s, not deg/s",
+       1e-3},
       {"the unit of the times: they look like [us], not [s]. Write time [us] in the header", 1e-6},
-      {"the unit of the times: they look like [s], not [ms]. Write time [s] in the header", 1e3}};
+      {"the unit of the times: they look like [s], not [ms]. Write time [s] in the header; or that "
+       "of the gyros, whose numbers look like deg/s, not mdeg/s",
+       1e3}};
   for (const Mistake& m : mistakes) {
     const double otherwise = stats::upper_median(errors(signals, dwells, {m.times}));
     if (otherwise > std::min(Limits::alike, Limits::far_better * as_declared)) continue;

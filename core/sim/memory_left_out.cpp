@@ -21,7 +21,7 @@ std::vector<MemoryLeftOut> memory_left_out(const Timeline& timeline, const Drift
          const double dt = i.length() / static_cast<double>(steps);
          for (std::size_t k = 1; k <= steps; ++k)
            for (std::size_t m = 0; m < num_memory; ++m) {
-             const double a = nominal.points()[k].value[m], b = own.points()[k].value[m];
+             const double a = nominal.itself()[k].value[m], b = own.itself()[k].value[m];
              along_nominal[m] += a * a * dt;
              along_own[m] += b * b * dt;
              apart[m] += (b - a) * (b - a) * dt;

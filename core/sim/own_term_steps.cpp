@@ -43,28 +43,45 @@ class RowCourse {
     const std::size_t last = 2 * static_cast<std::size_t>(substeps);
     double sum = 0.0;
     for (std::size_t k = 0; k <= last; ++k) {
-      const double simpson = k == 0 || k == last ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
-      sum += (rule == Rule::readings ? Timeline::mean_weight(substeps, k)
-                                     : simpson / (3.0 * static_cast<double>(last))) *
+      sum += (rule == Rule::readings ? Timeline::mean_weight(substeps, k) : weight(k, last)) *
              at(static_cast<double>(k) / static_cast<double>(last));
     }
     return sum;
   }
-  /// By steps so fine, and so odd, that what repeats with a row's steps does not with these.
-  double true_mean() const { return mean(Rule::integrals, samples); }
+  /// In two parts of which none is a fraction of the other: what repeats with the steps of a row
+  /// does not repeat with these.
+  double true_mean(int substeps) const {
+    constexpr double part = 0.38196601125010515;  // golden section
+    return part * simpson(0.0, part, substeps) + (1.0 - part) * simpson(part, 1.0, substeps);
+  }
   double mean_square() const {
     double sum = 0.0;
     for (int k = 0; k < samples; ++k) sum += std::pow(at((k + 0.5) / samples), 2) / samples;
     return sum;
   }
+  /// Against finer steps than those in question, at least six times as many.
   double error(int substeps) const {
-    const double truth = true_mean();
+    const double truth = true_mean(std::max(11, 3 * substeps));
     return std::max(std::abs(mean(Rule::readings, substeps) - truth),
                     std::abs(mean(Rule::integrals, substeps) - truth));
   }
 
  private:
-  static constexpr int samples = 97;
+  /// Of Simpson's rule over `last` steps.
+  static double weight(std::size_t k, std::size_t last) {
+    return (k == 0 || k == last ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) / (3.0 * static_cast<double>(last));
+  }
+  /// The mean over a part of the row.
+  double simpson(double from, double to, int substeps) const {
+    const std::size_t last = 2 * static_cast<std::size_t>(substeps);
+    double sum = 0.0;
+    for (std::size_t k = 0; k <= last; ++k)
+      sum += weight(k, last) *
+             at(from + (to - from) * static_cast<double>(k) / static_cast<double>(last));
+    return sum;
+  }
+
+  static constexpr int samples = 23;
   const OwnCourse& course_;
   std::vector<OwnCourse::Reading> nodes_;
 };
@@ -117,12 +134,13 @@ std::vector<UnresolvedOwnTerm> unresolved_own_terms(const Timeline& timeline,
     UnresolvedOwnTerm one{own};
     for (const Interval& i : timeline.intervals) {
       const RowCourse row(course, timeline, i);
-      const double error = row.error(i.substeps);
+      // Where nothing asked for finer steps these are good to a thousandth.
+      const double error = i.fine ? row.error(i.substeps) : 0.0;
       errors += error * error;
       values += row.mean_square();
       one.longest_row = std::max(one.longest_row, i.length());
     }
-    one.off = std::sqrt(errors / values);
+    one.off = errors > 0.0 ? std::sqrt(errors / values) : 0.0;
     if (one.off > too_far_off) all.push_back(one);
   });
   return all;

@@ -7,10 +7,12 @@
 namespace drift::stats {
 
 double beyond_t(double t, double dof) {
+  if (std::isinf(t)) return 0.0;
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(dof), std::abs(t)));
 }
 
 double beyond_f(double f, double dof_above, double dof_below) {
+  if (std::isinf(f)) return 0.0;
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(dof_above, dof_below), f));
 }
 

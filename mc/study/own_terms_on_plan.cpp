@@ -31,8 +31,8 @@ BrokenTerm told(const UnresolvedOwnTerm& term) {
   return {
       fmt::format("term.{}.equation", term.own),
       fmt::format("term '{}' changes too fast for rows of {:.6g} s: its means over them would be "
-                  "off by {:.0f} % (expected at most 5 %). Take shorter rows (plan.sample), or "
-                  "leave out what averages out within one",
+                  "off by {:.0f} % (expected at most 5 %). Take shorter rows (plan.sample; "
+                  "of a recording as it was read), or leave out what averages out within one",
                   own_terms().terms[term.own].key, term.longest_row, 100.0 * term.off)};
 }
 
@@ -51,6 +51,11 @@ std::vector<BrokenTerm> too_fast_own_terms(const std::vector<const ModelSpec*>& 
     for (const UnresolvedOwnTerm& term : unresolved_own_terms(timeline, *model))
       if (seen.insert(term.own).second) broken.push_back(told(term));
   return broken;
+}
+
+void resolve(Timeline& timeline, const Study& study, const std::vector<const ModelSpec*>& models) {
+  for (const ModelSpec* model : models) drift::resolve_own_terms(timeline, *model);
+  require_none(study, too_fast_own_terms(models, timeline));
 }
 
 }  // namespace
@@ -84,9 +89,13 @@ void require_none(const Study& study, const std::vector<BrokenTerm>& broken) {
 }
 
 void resolve_own_terms(Timeline& timeline, const Study& study) {
-  const std::vector<const ModelSpec*> models = models_of(study);
-  for (const ModelSpec* model : models) drift::resolve_own_terms(timeline, *model);
-  require_none(study, too_fast_own_terms(models, timeline));
+  resolve(timeline, study, models_of(study));
+}
+
+void resolve_own_terms_of_filters(Timeline& timeline, const Study& study) {
+  std::vector<const ModelSpec*> filters;
+  for (const FilterSpec& filter : study.filters) filters.push_back(&filter);
+  resolve(timeline, study, filters);
 }
 
 }  // namespace drift::mc

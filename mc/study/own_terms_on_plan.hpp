@@ -27,5 +27,7 @@ void require_none(const Study& study, const std::vector<BrokenTerm>& broken);
 /// Makes the steps of a test as fine as the own terms ask for, with what [truth] and every filter
 /// say of them. InputError (config) if one changes too fast even so.
 void resolve_own_terms(Timeline& timeline, const Study& study);
+/// The same of a recording, with what every filter says of them.
+void resolve_own_terms_of_filters(Timeline& timeline, const Study& study);
 
 }  // namespace drift::mc

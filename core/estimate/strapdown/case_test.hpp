@@ -31,7 +31,8 @@ struct CaseTest {
   std::size_t ways_with_gap = 0;
   std::vector<bool> still;  ///< of each dwell: a rest to the gyros
   /// Of each interval from when to when its gyros are read [s]: its own ends, but for the half of a
-  /// dwell that has the gyros of the whole (Carry::one_way).
+  /// dwell that has the gyros of the whole (Carry::one_way). What its accelerometers follow is then
+  /// off by a quarter of the change in the dwell: they are read over the half.
   std::vector<std::pair<double, double>> read_over;
   std::vector<Mat3> R_lp;  ///< attitude at the start of each chain as it was assumed
 };

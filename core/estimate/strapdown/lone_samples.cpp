@@ -75,6 +75,7 @@ std::vector<LoneSample> lone_gyro_samples(const Signals& signals) {
     const std::vector<double> distance = distances(signals, axis);
     const Sums sums(distance);
     const double step = step_of(signals, axis);
+    if (!std::isfinite(step)) continue;  // it never changes
     for (std::size_t k = margin; k + margin < signals.size(); ++k) {
       // Where its neighbours' are as the sample alone would have them.
       double off = 0.0;
@@ -83,8 +84,10 @@ std::vector<LoneSample> lone_gyro_samples(const Signals& signals) {
       if (!(std::abs(off) > 2.0 * step)) continue;
       const double before = sums.mean_square(k - 2 * reach - beside, k - 2 * reach),
                    after = sums.mean_square(k + 2 * reach + 1, k + 2 * reach + 1 + beside);
-      const double around = before + after - std::min(before, after);  // not known if one is not
-      if (!(off * off * of_off > around * correlated)) continue;       // saves the distribution
+      // Rounding leaves a twelfth of a step squared, where no noise shows.
+      const double around = std::max(before + after - std::min(before, after),  // or not known
+                                     of_off * step * step / 12.0);
+      if (!(off * off * of_off > around * correlated)) continue;  // saves the distribution
       const double t = off / std::sqrt(around * correlated / of_off);
       double left = 0.0;
       for (std::size_t j = 0; j < off_cubic.size(); ++j)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/check.hpp"
+#include "core/base/nan.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
@@ -57,8 +58,9 @@ void check_time(const Recording& recording, const std::vector<double>& time) {
     }
 }
 
-/// The line between the neighbours of a lone empty cell, of one sensor axis: what a whole row that
-/// is lost is bridged by on the way to a dwell.
+/// A lone empty cell of one sensor axis, where a whole row that is lost would be bridged: on the
+/// cubic through two neighbours on either side, or the line where they are not all there at equal
+/// distances.
 void bridge_lone_cells(const std::vector<double>& time, double interval,
                        std::vector<Vec3>& sensor) {
   const std::vector<Vec3> given = sensor;
@@ -66,9 +68,15 @@ void bridge_lone_cells(const std::vector<double>& time, double interval,
     const double across = time[k + 1] - time[k - 1];
     if (given[k].allFinite() || !(across < longest_step * interval)) continue;
     const double part = (time[k] - time[k - 1]) / across;
-    for (int a = 0; a < 3; ++a)
-      if (!std::isfinite(given[k][a]))
-        sensor[k][a] = given[k - 1][a] + part * (given[k + 1][a] - given[k - 1][a]);
+    const bool even = k >= 2 && k + 2 < time.size() &&
+                      std::abs(time[k + 2] - time[k - 2] - 4.0 * interval) < 0.5 * interval;
+    for (int a = 0; a < 3; ++a) {
+      if (std::isfinite(given[k][a])) continue;
+      sensor[k][a] = given[k - 1][a] + part * (given[k + 1][a] - given[k - 1][a]);
+      const double outer = even ? given[k - 2][a] + given[k + 2][a] : nan_value;
+      if (std::isfinite(outer))
+        sensor[k][a] = (4.0 * (given[k - 1][a] + given[k + 1][a]) - outer) / 6.0;
+    }
   }
 }
 

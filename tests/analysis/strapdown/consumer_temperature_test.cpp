@@ -12,8 +12,9 @@
 namespace drift::strapdown::consumer_temperature_test {
 namespace {
 
-/// Eighteen minutes with rests of 50 s, in which gyro z follows a swing of 8 K and nine minutes.
-Recording warmed(double kT) {
+/// Eighteen minutes with rests of 50 s, in which gyro z follows a swing of 8 K and nine minutes,
+/// and its rate.
+Recording warmed(double kT, double kT_rate) {
   Theta theta = Theta::Zero();
   for (const char* key : {"D_F_x", "D_F_y", "D_F_z"}) test::set(theta, key, 900.0);
   test::set(theta, "s_x", 4000.0);
@@ -23,9 +24,10 @@ Recording warmed(double kT) {
   const auto gyro = std::ranges::find(r.channels, "gyro_z", &Channel::name);
   const std::vector<double> time = r.channels[0].values;
   for (std::size_t k = 0; k < time.size(); ++k) {
-    const double dT = 8.0 * std::sin(2.0 * std::numbers::pi * time[k] / 540.0);
+    constexpr double w = 2.0 * std::numbers::pi / 540.0;
+    const double dT = 8.0 * std::sin(w * time[k]), rate = 8.0 * w * std::cos(w * time[k]);
     temperature.values.push_back(25.0 + dT);
-    gyro->values[k] += kT * dT;
+    gyro->values[k] += kT * dT + kT_rate * rate;
   }
   r.channels.push_back(std::move(temperature));
   return r;
@@ -37,7 +39,7 @@ TEST(ConsumerTemperature, ADriftThatFollowsItIsNamedWithItsSizeAndNoLag) {
   const mc::Study study =
       mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
   const double unit = parse_unit("deg/h/degC")->to_si;
-  const Recording recording = warmed(60.0 * unit);
+  const Recording recording = warmed(60.0 * unit, 0.0);
   const diagnosis::Diagnosis d =
       diagnose_case(study, identify_case(study, case_study(study, recording)));
   EXPECT_EQ(d.verdict, diagnosis::Verdict::named) << report::sentence(d);
@@ -47,6 +49,20 @@ TEST(ConsumerTemperature, ADriftThatFollowsItIsNamedWithItsSizeAndNoLag) {
   ASSERT_NE(p, d.causes[0].parameters.end());
   EXPECT_NEAR(p->value, 60.0, 4.0 * p->sigma);
   EXPECT_LT(p->sigma, 1.5);
+}
+
+TEST(ConsumerTemperature, OneThatFollowsItsRateHasItsSize) {
+  mc::Study study = mc::read_study(std::string(DRIFT_SOURCE_DIR) + "/configs/diagnose_xsens.toml");
+  FilterSpec& filter = study.filters.front();
+  for (const char* key : {"kT_z", "kT_rate_z"}) filter.active.set(*TermLibrary::find(key));
+  filter.priors[*TermLibrary::find("kT_rate_z")] =
+      normal(0.0, 100.0 * parse_unit("deg/h*min/degC")->to_si);
+  const Recording recording = warmed(0.0, 30.0 * parse_unit("deg/h*min/degC")->to_si);
+  const CaseIdentification id = identify_case(study, case_study(study, recording));
+  const ParameterEstimate* p = id.fits.front().fit.estimate.find(*TermLibrary::find("kT_rate_z"));
+  ASSERT_NE(p, nullptr);
+  EXPECT_NEAR(p->value, 30.0 * parse_unit("deg/h*min/degC")->to_si, 4.0 * p->sigma);
+  EXPECT_LT(p->sigma, 3.0 * parse_unit("deg/h*min/degC")->to_si);
 }
 
 }  // namespace

@@ -76,10 +76,23 @@ TEST(LoneSamples, TwoTogetherOneBesideAGapAndOneStepOfTheReadoutAreNotSaid) {
   EXPECT_TRUE(lone_gyro_samples(steps).empty());
 }
 
+TEST(LoneSamples, OneIsFoundWhereNoiseIsBelowTheStepOfTheReadout) {
+  Signals s = hand_and_table(7);
+  for (std::size_t k = 0; k < s.size(); ++k)
+    s.gyro[k] = Vec3(k % 500 == 250 ? 0.001 : 0.0, 0.0, 0.0);
+  s.gyro[100].x() = 0.05;
+  const auto all = lone_gyro_samples(s);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].sample, 100u);
+  EXPECT_NEAR(all[0].off, 0.05, 1e-12);
+}
+
 TEST(SmallSamples, TailsAreThoseOfTables) {
   EXPECT_NEAR(stats::beyond_t(2.262157, 9.0), 0.05, 1e-6);
   EXPECT_NEAR(stats::beyond_t(-4.780913, 9.0), 0.001, 1e-7);
   EXPECT_NEAR(stats::beyond_f(3.633089, 4.0, 9.0), 0.05, 1e-6);
+  EXPECT_EQ(stats::beyond_t(-HUGE_VAL, 9.0), 0.0);
+  EXPECT_EQ(stats::beyond_f(HUGE_VAL, 4.0, 9.0), 0.0);
 }
 
 }  // namespace
