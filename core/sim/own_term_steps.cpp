@@ -109,9 +109,11 @@ void resolve_own_terms(Timeline& timeline, const ModelSpec& model) {
     for (std::size_t n = 0; n < timeline.intervals.size(); ++n) {
       Interval& i = timeline.intervals[n];
       const RowCourse row(course, timeline, i);
-      while (2 * substeps[n] <= most_substeps && row.error(substeps[n]) > tolerance * largest) {
+      while (row.error(substeps[n]) > tolerance * largest) {
+        i.fine = true;
+        if (2 * substeps[n] > most_substeps) break;
         substeps[n] *= 2;
-        i.fine = finer = true;
+        finer = true;
       }
     }
   });

@@ -43,13 +43,18 @@ std::vector<const ModelSpec*> models_of(const Study& study) {
   return models;
 }
 
+/// Those that are no number somewhere are told elsewhere, and by the runs that fail.
 std::vector<BrokenTerm> too_fast_own_terms(const std::vector<const ModelSpec*>& models,
                                            const Timeline& timeline) {
   std::vector<BrokenTerm> broken;
   std::set<std::size_t> seen;
-  for (const ModelSpec* model : models)
-    for (const UnresolvedOwnTerm& term : unresolved_own_terms(timeline, *model))
+  for (const ModelSpec* model : models) {
+    const std::vector<UnresolvedOwnTerm> too_fast = unresolved_own_terms(timeline, *model);
+    if (too_fast.empty()) continue;
+    for (const OwnTermGap& gap : own_term_gaps(timeline, *model)) seen.insert(gap.own);
+    for (const UnresolvedOwnTerm& term : too_fast)
       if (seen.insert(term.own).second) broken.push_back(told(term));
+  }
   return broken;
 }
 
