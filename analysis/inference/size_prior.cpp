@@ -72,7 +72,7 @@ class Rotated {
 };
 
 double log_gain(const VecX& x, const MatX& covariance, const std::vector<int>& cause,
-                const std::vector<double>& wide, std::span<const double> scales) {
+                const std::vector<double>& wide, std::span<const double> of_prior) {
   if (x.size() == 0) return 0.0;
   const MatX information = covariance.inverse();
   const VecX pull = information * x;
@@ -91,7 +91,7 @@ double log_gain(const VecX& x, const MatX& covariance, const std::vector<int>& c
       const auto amplitude = static_cast<std::size_t>(k);
       if (width(amplitude) > beyond) continue;
       const double s =
-          scales[chosen[static_cast<std::size_t>(cause[amplitude])]] / width(amplitude);
+          of_prior[chosen[static_cast<std::size_t>(cause[amplitude])]] / width(amplitude);
       A(k, k) += 1.0 / (s * s) - 1.0;
       shrunk -= std::log(s);
     }
@@ -99,7 +99,7 @@ double log_gain(const VecX& x, const MatX& covariance, const std::vector<int>& c
     logs.push_back(shrunk + 0.5 * (unit - log_det(A)) +
                    0.5 * (pull.dot(Cholesky(A).solve(pull)) - x.dot(pull)));
     std::size_t next = 0;
-    while (next < chosen.size() && ++chosen[next] == scales.size()) chosen[next++] = 0;
+    while (next < chosen.size() && ++chosen[next] == of_prior.size()) chosen[next++] = 0;
     if (next == chosen.size()) return log_mean_exp(logs) + far;
   }
 }
