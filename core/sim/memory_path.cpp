@@ -57,9 +57,10 @@ PathStep between(const PathPoint& a, const PathPoint& b, double dt, const Vec3& 
   return step;
 }
 
-enum class Change { start, advance };
+enum class Change { start, advance, mean };
 
-/// Starts or advances the memory of all terms, each with the derivative to its own parameter.
+/// Starts or advances the memory of all terms, or puts in its place its mean over the step, of
+/// those that tell it; each with the derivative to its own parameter.
 void change_memory(Change change, const TermMask& terms, const PathStep& along, const double* theta,
                    MemoryPoint& point) {
   using D = Dual<1>;
@@ -73,10 +74,13 @@ void change_memory(Change change, const TermMask& terms, const PathStep& along, 
       m[k].v = point.value[first + k];
       m[k].d[0] = point.derivative[first + k];
     }
-    if (change == Change::start)
-      T::start(along, p.data(), m.data());
-    else
-      T::advance(along, p.data(), m.data());
+    if (change == Change::start) T::start(along, p.data(), m.data());
+    if (change == Change::advance) T::advance(along, p.data(), m.data());
+    if constexpr (tells_means<T>())
+      if (change == Change::mean) {
+        const std::array<D, T::memory> from = m;
+        T::mean(along, p.data(), from.data(), m.data());
+      }
     for (std::size_t k = 0; k < m.size(); ++k) {
       point.value[first + k] = m[k].v;
       point.derivative[first + k] = m[k].d[0];
@@ -98,32 +102,6 @@ bool tell_means(const TermMask& terms) {
   bool any = false;
   for_each_mean(terms, [&](std::size_t) { any = true; });
   return any;
-}
-
-/// The means over a step that begins with `from`, of the terms that tell them.
-MemoryPoint means_along(const TermMask& terms, const PathStep& along, const double* theta,
-                        const MemoryPoint& from) {
-  using D = Dual<1>;
-  MemoryPoint means;
-  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
-    if constexpr (tells_means<T>()) {
-      std::array<D, T::params.size()> p;
-      for (std::size_t k = 0; k < p.size(); ++k) p[k] = D(theta[info.first + k]);
-      p[T::memory_parameter].d[0] = 1.0;
-      std::array<D, T::memory> m, mean;
-      const auto first = static_cast<std::size_t>(info.first_memory);
-      for (std::size_t k = 0; k < m.size(); ++k) {
-        m[k].v = from.value[first + k];
-        m[k].d[0] = from.derivative[first + k];
-      }
-      T::mean(along, p.data(), m.data(), mean.data());
-      for (std::size_t k = 0; k < m.size(); ++k) {
-        means.value[first + k] = mean[k].v;
-        means.derivative[first + k] = mean[k].d[0];
-      }
-    }
-  });
-  return means;
 }
 
 }  // namespace
@@ -159,7 +137,10 @@ void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* p
                    heading_at(interval, interval.t0 + half * static_cast<double>(k)), interval,
                    first->omega_ic_l, gimbals);
     const PathStep along = between(here, next, half, interval.omega_cmd_p);
-    if (means) means_[k] = means_along(terms_, along, theta, m);
+    if (means) {
+      means_[k] = m;
+      change_memory(Change::mean, terms_, along, theta, means_[k]);
+    }
     change_memory(Change::advance, terms_, along, theta, m);
     points_[k] = m;
     here = next;
