@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "core/base/check.hpp"
+#include "core/base/number_text.hpp"
 #include "core/config/load.hpp"
 #include "core/physics/parameters_config.hpp"
 
@@ -56,6 +58,17 @@ double within(const Prior& prior, double value) {
 
 Node parsed(const mc::Study& study) {
   return config::parse_document(study.text, study.path);
+}
+
+Node& first_filter(Node& root, const mc::Study& study) {
+  Node* filters = root.find("filter");
+  if (filters == nullptr || filters->items.empty() || study.filters.empty())
+    throw InputError(
+        ExitCode::config,
+        fmt::format("{}: no [[filter]] to be patched (expected the nominal model). Add "
+                    "a section [[filter]]",
+                    study.path));
+  return filters->items.front();
 }
 
 }  // namespace
@@ -126,14 +139,7 @@ FilterSpec started_where_found(FilterSpec patched, const std::vector<search::Cau
 
 std::string patched_study(const mc::Study& study, const FilterSpec& patched) {
   Node root = parsed(study);
-  Node* filters = root.find("filter");
-  if (filters == nullptr || filters->items.empty() || study.filters.empty())
-    throw InputError(
-        ExitCode::config,
-        fmt::format("{}: no [[filter]] to be patched (expected the nominal model). Add "
-                    "a section [[filter]]",
-                    study.path));
-  Node& filter = filters->items.front();
+  Node& filter = first_filter(root, study);
   const FilterSpec& nominal = study.filters.front();
 
   Node& terms = at(filter, "terms") = list_node({});
@@ -179,6 +185,45 @@ std::string study_with_field(const mc::Study& study, const Vec3& field_l) {
     at(environment, std::string(field.column(k).view())) =
         text_node(fmt::format("{:.4f} {}", field_l[static_cast<Eigen::Index>(k)] / field.unit.to_si,
                               field.unit.symbol.view()));
+  return config::to_document(root);
+}
+
+bool can_be_declared(const inference::NoiseFinding& found, RecordingKind kind) {
+  const std::string& c = found.component;
+  const bool of_platform = kind == RecordingKind::platform;
+  return found.significant &&
+         (c == inference::drift_walk.name ||
+          (of_platform && (c == inference::angle_walk.name || c == inference::acc_white.name ||
+                           c == inference::gimbal_white.name)));
+}
+
+bool declares_noise(const Diagnosis& d) {
+  const RecordingKind kind = d.of_case ? RecordingKind::strapdown : RecordingKind::platform;
+  return !d.wrong_study() && (d.has_patch || d.verdict == Verdict::consistent) &&
+         std::ranges::any_of(
+             d.noise, [&](const inference::NoiseFinding& f) { return can_be_declared(f, kind); });
+}
+
+std::string study_with_noise(const mc::Study& study,
+                             const std::vector<inference::NoiseFinding>& found) {
+  constexpr int digits = 3;  // a noise is never known better
+  Node root = parsed(study);
+  const auto declare = [&](Node& table, const std::string& key, double si, const Unit& unit) {
+    at(table, key) =
+        text_node(fmt::format("{} {}", number_text(si / unit.to_si, digits), unit.symbol.view()));
+  };
+  for (const inference::NoiseFinding& f : found) {
+    if (!can_be_declared(f, study.kind)) continue;
+    if (f.component == inference::acc_white.name)
+      declare(at(root, "readout"), "accelerometer_noise",
+              f.factor * study.readout.accelerometer_noise, unit::ug);
+    else if (f.component == inference::gimbal_white.name)
+      declare(at(root, "readout"), "gimbal_noise", f.factor * study.readout.gimbal_noise,
+              unit::arcsec);
+    else
+      at(first_filter(root, study), f.component) =
+          text_node(fmt::format("{} {}", number_text(f.value, digits), f.unit));
+  }
   return config::to_document(root);
 }
 

@@ -35,6 +35,19 @@ std::string patched_study(const mc::Study& study, const FilterSpec& patched);
 /// The study file with a magnetic field in [environment], North, West, Up [T].
 std::string study_with_field(const mc::Study& study, const Vec3& field_l);
 
+/// Whether a study of this kind can declare noise that a diagnosis found, and it is significant:
+/// white noise of a platform's instruments in [readout], random walks in the first filter (on a
+/// case that of the drift). No key stands for correlated noise.
+bool can_be_declared(const inference::NoiseFinding& found, RecordingKind kind);
+
+/// Whether the patched study of a diagnosis declares some: not where something unexplained may be
+/// what looks like noise.
+bool declares_noise(const Diagnosis& d);
+
+/// The study file with what can_be_declared() of the noise that was found.
+std::string study_with_noise(const mc::Study& study,
+                             const std::vector<inference::NoiseFinding>& found);
+
 /// The study file with these positions for its plan, written out one by one.
 std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
@@ -29,20 +30,6 @@ std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
   return std::nullopt;
 }
 
-/// Where nothing is missing but noise of a kind that a study can declare: what it is to declare, so
-/// that the sigmas of identify hold it.
-std::string noise_to_declare(const Diagnosis& d) {
-  if (d.verdict != Verdict::consistent || !d.of_case) return "";
-  for (const inference::NoiseFinding& f : d.noise)
-    if (f.significant && f.component == "drift_random_walk")
-      return fmt::format(
-          "Next: identify with the walk that was found, without which its sigmas are too small: "
-          "--set {}.",
-          shell_word(fmt::format("filter.{}.drift_random_walk={} {}", d.nominal.name,
-                                 number_text(f.value, 2), f.unit)));
-  return "";
-}
-
 /// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
 std::string next_step(const Diagnosis& d, bool off_zero) {
   if (labels_are_late(d))
@@ -57,13 +44,18 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (!d.advice.empty()) return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)
-    return "Next: identify with patched.toml, the study with the cause in its model.";
+    return declares_noise(d) ? "Next: identify with patched.toml, the study with the cause in its "
+                               "model and the noise that was found."
+                             : "Next: identify with patched.toml, the study with the cause in its "
+                               "model.";
   if (const auto other = facts(d.nominal.coupling).other;
       other && std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
     return fmt::format(
         "Next: diagnose again under the other equation, and see what is missing: --set {}.",
         shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
-  if (const std::string noise = noise_to_declare(d); !noise.empty()) return noise;
+  if (declares_noise(d))
+    return "Next: identify with patched.toml, the study with the noise that was found: the sigmas "
+           "of identify are of the noise that is declared.";
   if (d.proposal)
     return "Next: look for what acts there and then. With the [[term]] of proposal.toml in the "
            "study, another recording tells whether it comes again.";

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
@@ -263,7 +264,7 @@ Json diagnosis_document(const Diagnosis& d) {
   out["fit"] = fit_json(d);
   out["profiles"] = profiles_json(d.profiles);
   out["advice"] = advice_json(d.advice);
-  out["model"] = d.has_patch ? Json("patched.toml") : Json(nullptr);
+  out["model"] = d.has_patch || declares_noise(d) ? Json("patched.toml") : Json(nullptr);
   out["noise"] = rows_json(noise_table(d));
   out["equations"] = equations_json(d);
   out["cosines"] = cosines_json(d.cosines);

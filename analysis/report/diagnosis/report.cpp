@@ -58,17 +58,18 @@ std::string widened_text(const Diagnosis& d) {
 }
 
 /// The patched study, headed by what it holds where several causes remain possible, and by the
-/// priors that are wider than those of the library.
+/// priors that are wider than those of the library. With the noise that was found, without which
+/// its sigmas would not hold.
 std::string patched_file(const mc::Study& study, const Diagnosis& d) {
   std::string out;
   for (const std::string& head : {patch_text(d), widened_text(d)}) {
     std::istringstream lines(head.empty() ? "" : wrapped(head, 98));
     for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
   }
-  if (!d.field || !d.field->another()) return out + patched_study(study, d.patched);
   mc::Study there = study;
-  there.text = study_with_field(study, d.field->field_l);
-  return out + patched_study(there, d.patched);
+  if (d.field && d.field->another()) there.text = study_with_field(there, d.field->field_l);
+  if (declares_noise(d)) there.text = study_with_noise(there, d.noise);
+  return out + (d.has_patch ? patched_study(there, d.patched) : there.text);
 }
 
 }  // namespace
@@ -157,7 +158,8 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   report.document = {"diagnosis.json", dumped(document)};
   report.files = {{"residual_signal.csv", residual_signal_csv(d.signals, d.where.recordings)},
                   {"study.toml", study.text}};
-  if (d.has_patch) report.files.emplace_back("patched.toml", patched_file(study, d));
+  if (d.has_patch || declares_noise(d))
+    report.files.emplace_back("patched.toml", patched_file(study, d));
   if (d.proposal) report.files.emplace_back("proposal.toml", d.proposal->text);
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
     report.files.emplace_back("advised.toml", extended_study(study, d.advice.front().plan));

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/identification/identify.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "analysis/strapdown/sensed.hpp"
+#include "tests/support/program.hpp"
 #include "tests/support/strapdown_recording.hpp"
 
 namespace drift::strapdown::walking_drift_test {
@@ -105,7 +107,11 @@ TEST(WalkingDrift, DiagnoseSaysWhatIdentifyIsToBeTold) {
   const diagnosis::Diagnosis d = diagnose_case(study, id);
   EXPECT_EQ(d.verdict, diagnosis::Verdict::consistent);
   const std::string then = report::diagnosis_in_brief(d).next;
-  EXPECT_NE(then.find("filter.nominal.drift_random_walk="), std::string::npos) << then;
+  EXPECT_NE(then.find("identify with patched.toml"), std::string::npos) << then;
+  const test::ScratchFolder folder;
+  const mc::Study patched =
+      mc::read_study(folder.write("patched.toml", diagnosis::study_with_noise(study, d.noise)));
+  EXPECT_GT(patched.filters.front().noise.drift_random_walk, 0.0);
 }
 
 }  // namespace
