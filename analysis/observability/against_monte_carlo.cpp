@@ -18,6 +18,7 @@ constexpr double prior_excess = std::numbers::sqrt2 * (1.0 + tolerance);
 
 /// sigma_ratio: the sigma that the filter reports over the prior's.
 void judge(ErrorComparison& c, TruthIs truth, ProcessNoiseIs noise, double sigma_ratio) {
+  if (!std::isfinite(c.low) || !std::isfinite(c.high)) return;
   const double promise = c.learning_ratio;
   const bool holds = c.low <= promise * (1.0 + tolerance) && c.high >= promise * (1.0 - tolerance);
   const bool prior_rules = promise * promise >= 0.5;
@@ -61,6 +62,8 @@ void judge(ErrorComparison& c, TruthIs truth, ProcessNoiseIs noise, double sigma
 
 std::string_view text_of(ErrorVerdict verdict) {
   switch (verdict) {
+    case ErrorVerdict::undecided:
+      return "undecided";
     case ErrorVerdict::agree:
       return "agree";
     case ErrorVerdict::nonlinear:
@@ -92,8 +95,8 @@ MonteCarloComparison compare_with_monte_carlo(const Ranking& ranking,
     c.param = p.param;
     c.learning_ratio = p.learning_ratio();
     c.rmse_ratio = error->rmse / p.prior_sigma;
-    c.low = std::isfinite(error->low) ? error->low / p.prior_sigma : c.rmse_ratio;
-    c.high = std::isfinite(error->high) ? error->high / p.prior_sigma : c.rmse_ratio;
+    c.low = error->low / p.prior_sigma;
+    c.high = error->high / p.prior_sigma;
     judge(c, truth, noise, error->sigma / p.prior_sigma);
     out.parameters.push_back(std::move(c));
   }

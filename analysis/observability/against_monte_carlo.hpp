@@ -8,8 +8,9 @@
 
 namespace drift::observability {
 
-/// What a Monte Carlo study found of one parameter: root mean square error of the estimates, with a
-/// (bootstrap) interval, and the sigma that the filter reported (root mean square), SI.
+/// What a Monte Carlo study found of one parameter: root mean square error of the estimates, with
+/// its interval (NaN: there is none), and the sigma that the filter reported (root mean square),
+/// SI.
 struct MonteCarloError {
   std::size_t param = 0;  ///< index in TermLibrary
   double rmse = 0.0, low = 0.0, high = 0.0;
@@ -24,6 +25,7 @@ enum class ProcessNoiseIs { nowhere, there };
 
 /// How an error of the study stands to what the information promises.
 enum class ErrorVerdict {
+  undecided,      ///< there is no interval: one run
   agree,          ///< the interval holds the promise (within 10 %)
   nonlinear,      ///< another error, which the filter knows of, or of the same model: levers depend
                   ///< on where the truth lies, or the estimator is not efficient
@@ -32,7 +34,7 @@ enum class ErrorVerdict {
   prior_dominated,  ///< the prior says at least as much as the data: the error shows how truth and
                     ///< starts were drawn
 };
-/// "agree", "nonlinear", "wrong model", "process noise", "prior dominated".
+/// "undecided", "agree", "nonlinear", "wrong model", "process noise", "prior dominated".
 std::string_view text_of(ErrorVerdict verdict);
 
 /// One parameter, by both methods.
@@ -41,7 +43,7 @@ struct ErrorComparison {
   double learning_ratio = 0.0;                     ///< promised: posterior / prior sigma
   double rmse_ratio = 0.0, low = 0.0, high = 0.0;  ///< found: RMSE / prior sigma and its interval
   double rank_promised = 0.0, rank_found = 0.0;    ///< 1 = best known; ties share their mean
-  ErrorVerdict verdict = ErrorVerdict::agree;
+  ErrorVerdict verdict = ErrorVerdict::undecided;
   std::string reason;  ///< in words; empty if they agree
 };
 

@@ -2,6 +2,9 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <numbers>
+
+#include "core/stats/normal.hpp"
 
 namespace drift::stats {
 namespace {
@@ -26,6 +29,18 @@ double log_far_tail(double T, double dof) {
   double fraction = x + 2 * terms + 1 - a;
   for (int n = terms; n > 0; --n) fraction = x + (2 * n - 1) - a - n * (n - a) / fraction;
   return a * std::log(x) - x - std::lgamma(a) - std::log(fraction);
+}
+
+double deviate(double T, double dof) {
+  constexpr double nearly_sure = -1e-15, representable = -690.0;
+  const double log_p = log_tail(T, dof);
+  if (log_p > nearly_sure) return normal_quantile(-nearly_sure);
+  if (log_p > representable) return -normal_quantile(std::exp(log_p));
+  // P(z) = exp(-z^2 / 2) / (z sqrt(2 pi)) (1 - 1 / z^2 ...): its log holds to 1 / z^2 < 1e-3.
+  double z = std::sqrt(-2.0 * log_p);
+  for (int i = 0; i < 4; ++i)
+    z = std::sqrt(-2.0 * log_p - std::log(2.0 * std::numbers::pi * z * z));
+  return z;
 }
 
 double quantile_of_strength(double s, int dof) {

@@ -20,6 +20,9 @@ inline double strength(double T, int dof) {
   return dof > 0 ? -log_tail(T, dof) : 0.0;
 }
 
+/// The normal number that is as rarely exceeded as T: sigmas above what is usual.
+double deviate(double T, double dof);
+
 /// The T of `dof` degrees that has this strength; by bisection.
 double quantile_of_strength(double s, int dof);
 

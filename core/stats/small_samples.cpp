@@ -6,6 +6,10 @@
 
 namespace drift::stats {
 
+double t_half_width(double confidence, double dof) {
+  return boost::math::quantile(boost::math::students_t(dof), 0.5 + 0.5 * confidence);
+}
+
 double beyond_t(double t, double dof) {
   if (std::isinf(t)) return 0.0;
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(dof), std::abs(t)));

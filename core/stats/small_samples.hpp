@@ -2,6 +2,10 @@
 
 namespace drift::stats {
 
+/// Half width of a two-sided interval of this confidence, in standard deviations of a mean that are
+/// themselves known from `dof` degrees of freedom alone: Student's t (Boost.Math). It is
+/// normal_half_width() in the limit of many; 12.7 with one, for 95 %. dof > 0.
+double t_half_width(double confidence, double dof);
 /// Of a normal deviate over a scale that is itself estimated with `dof` degrees of freedom: the
 /// chance of |t| or more (Student).
 double beyond_t(double t, double dof);

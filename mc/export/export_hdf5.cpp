@@ -42,14 +42,7 @@ void write_table(Hdf5Output& file, const ExportTable& table) {
 
 /// Names as datasets can have them, each once.
 std::vector<std::string> dataset_names(const std::vector<std::string>& wanted) {
-  std::set<std::string> taken{"point", "run", "status", "row", "column"};
-  std::vector<std::string> names;
-  for (const std::string& w : wanted) {
-    std::string name = plain_name(w);
-    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", plain_name(w), i);
-    names.push_back(name);
-  }
-  return names;
+  return plain_names(wanted, {"point", "run", "status", "row", "column"});
 }
 std::vector<std::string> dataset_names(const std::vector<Column>& columns) {
   std::vector<std::string> wanted;
@@ -80,7 +73,7 @@ ExportTable swept_table(const std::vector<StudyPoint>& points) {
       words.values.push_back(static_cast<double>(at - seen.begin()));
       if (at == seen.end()) seen.push_back(word);
     }
-    for (const std::string& word : seen) words.meanings.push_back(plain_name(word));
+    words.meanings = plain_names(seen);
     t.columns.push_back(std::move(words));
   }
   return t;
@@ -223,9 +216,9 @@ std::vector<std::string> write(StudyReader& reader, const StopRules& rules, cons
     set_of[p] = static_cast<std::size_t>(known - sets.begin());
     if (known == sets.end()) sets.emplace_back();
     sets[set_of[p]].push_back(p);
-    labels.push_back(points[p].label.empty() ? fmt::format("point_{}", p)
-                                             : plain_name(points[p].label));
+    labels.push_back(points[p].label.empty() ? fmt::format("point_{}", p) : points[p].label);
   }
+  labels = plain_names(labels);
   std::vector<hsize_t> rows(sets.size(), 0);
   reader.each_result(
       rules, [&](const StoredBlock& b) { rows[set_of[b.block.point]] += b.block.status.size(); });

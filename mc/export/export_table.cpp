@@ -26,12 +26,6 @@ std::vector<double> ranks(const FilterStatistics& f) {
   return out;
 }
 
-std::vector<std::string> plain_names(const std::vector<std::string>& names) {
-  std::vector<std::string> plain;
-  for (const std::string& name : names) plain.push_back(plain_name(name));
-  return plain;
-}
-
 std::vector<std::string> parameters() {
   std::vector<std::string> keys;
   for (const ParamSpec& spec : TermLibrary::specs) keys.emplace_back(plain_name(spec.key.view()));
@@ -49,7 +43,7 @@ std::vector<Number> rmse_of(const ErrorStatistics& e) {
   const Estimated r = e.rmse();
   const double unit = e.prior_sigma();
   return {{"rmse", "root mean square error over the prior sigma", r.value / unit},
-          {"rmse_low", "lower end of its 95 % interval, bootstrap", r.low / unit},
+          {"rmse_low", "lower end of its 95 % interval", r.low / unit},
           {"rmse_high", "upper end", r.high / unit}};
 }
 
@@ -65,7 +59,7 @@ std::vector<Number> joined(std::initializer_list<std::vector<Number>> parts) {
   return all;
 }
 
-const ErrorStatistics nothing(1.0, 0);  // for the heads of columns
+const ErrorStatistics nothing(1.0);  // for the heads of columns
 constexpr const char* wrong_in_silence = "share that is wrong with healthy statistics";
 
 /// What is told of a parameter at the end; errors over its prior sigma.
@@ -115,7 +109,10 @@ std::vector<Number> numbers_of(const StartStatistics& s) {
         {"nees_all", "the same of all directions", s.nees_all.mean()},
         {"white", "share of runs whose innovations are white", s.white.value()},
         {"healthy", "share of runs whose NIS is in its band", s.healthy.value()},
-        {"wrong", "share of runs with a parameter more than 5 sigma off", s.wrong.value()}},
+        {"wrong",
+         "share of runs that diverged, or with a parameter that the filter claims to know more "
+         "than 5 sigma off",
+         s.wrong.value()}},
        silent_of(s.silent, "share of runs that are wrong and healthy"),
        {{"diverged", "share of runs without an estimate", s.diverged.value()}}});
 }
@@ -190,11 +187,11 @@ StatisticsTables::StatisticsTables(const std::vector<StudyPoint>& points)
   Tables& t = *tables_;
   for (std::size_t p = 0; p < points.size(); ++p) {
     t.points.emplace_back(points[p].study);
-    t.labels.push_back(points[p].label.empty() ? fmt::format("point_{}", p)
-                                               : plain_name(points[p].label));
+    t.labels.push_back(points[p].label.empty() ? fmt::format("point_{}", p) : points[p].label);
     for (const FilterStatistics& f : t.points.back().filters())
       add_once(t.filters, f.columns().name);
   }
+  t.labels = plain_names(t.labels);
   t.told.assign(points.size(), 0);
   t.convergence =
       t.table("convergence", Tables::parameter_column(), numbers_so_far(nothing, {}, 0));
@@ -231,8 +228,9 @@ ExportTable FailuresTable::finish() {
   for (const std::string& cause : causes_) {
     lines.push_back(cause);
     std::replace(lines.back().begin(), lines.back().end(), '\n', ' ');
-    names.push_back(plain_name(cause));
+    names.push_back(cause);
   }
+  names = plain_names(names);
   ExportTable t{"failures",
                 "row",
                 {{"point", "1", "study point"},

@@ -39,8 +39,8 @@ struct ExportTable {
 ///                runs that are healthy, wrong, silently wrong, diverged
 ///   convergence  the same of RMSE, coverage and silent failures after 64, 128, 256, ... runs and
 ///   at the end
-/// Intervals are of 95 % and those of summary.json: of an RMSE by bootstrap, of a rate after
-/// Wilson, of a bias after Student.
+/// Intervals are of 95 % and those of summary.json: of an RMSE and of a bias after Student,
+/// of a rate after Wilson.
 class StatisticsTables {
  public:
   explicit StatisticsTables(const std::vector<StudyPoint>& points);

@@ -100,6 +100,18 @@ std::string plain_name(std::string_view text) {
   return out;
 }
 
+std::vector<std::string> plain_names(const std::vector<std::string>& names,
+                                     std::set<std::string> taken) {
+  std::vector<std::string> plain;
+  for (const std::string& wanted : names) {
+    std::string name = plain_name(wanted);
+    for (int i = 2; !taken.insert(name).second; ++i)
+      name = fmt::format("{}_{}", plain_name(wanted), i);
+    plain.push_back(std::move(name));
+  }
+  return plain;
+}
+
 Facts provenance_of(StudyReader& reader) {
   const Manifest& m = reader.manifest();
   std::uint64_t stored = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace drift::mc {
 /// A name that every reader takes as it is: letters, digits and _ ; "eq5/0/sigma/D_I_z" becomes
 /// "eq5_0_sigma_D_I_z".
 std::string plain_name(std::string_view name);
+/// The same of several, none of them twice nor one of those taken: "a b" and "a_b" become "a_b" and
+/// "a_b_2".
+std::vector<std::string> plain_names(const std::vector<std::string>& names,
+                                     std::set<std::string> taken = {});
 
 /// A value in the unit in which people read it.
 inline double in_column_unit(double value, const Column& column) {

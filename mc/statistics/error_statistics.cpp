@@ -2,38 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/nan.hpp"
-#include "core/base/rng.hpp"
-#include "core/stats/student.hpp"
+#include "core/stats/chi_square.hpp"
+#include "core/stats/small_samples.hpp"
 
 namespace drift::mc {
 namespace {
 
-/// Poisson number of mean 1 by inversion of its distribution function.
-double poisson_one(double u) {
-  double p = std::exp(-1.0), below = p;
-  int k = 0;
-  while (u > below && k < 20) {
-    p /= ++k;
-    below += p;
-  }
-  return k;
+/// A root of a mean square whose relative standard error is given: log of the mean square after
+/// Student.
+Estimated root_between(double root, double relative, std::uint64_t runs, double confidence) {
+  if (runs < 2) return {root, nan_value, nan_value};
+  const double half =
+      0.5 * stats::t_half_width(confidence, static_cast<double>(runs) - 1.0) * relative;
+  return {root, root * std::exp(-half), root * std::exp(half)};
 }
 
 }  // namespace
 
-std::span<const double> BootstrapWeights::of(std::uint64_t run) {
-  Stream stream(seed_, run, Purpose::bootstrap);
-  for (double& w : weights_) w = poisson_one(stream.uniform());
-  return weights_;
-}
-
-ErrorStatistics::ErrorStatistics(double prior_sigma, std::size_t replicates)
-    : prior_sigma_(prior_sigma), replicates_(replicates) {}
-
-void ErrorStatistics::add(double error, double sigma, std::span<const double> weights) {
+void ErrorStatistics::add(double error, double sigma) {
   const double e = error / prior_sigma_, s = sigma / prior_sigma_;
   const double square = e * e, variance = s * s;
   ++n_;
@@ -41,14 +29,11 @@ void ErrorStatistics::add(double error, double sigma, std::span<const double> we
   square_ += square;
   fourth_ += square * square;
   variance_ += variance;
+  square_variance_ += square * variance;
+  variance_square_ += variance * variance;
   for (std::size_t k = 0; k < coverage_.size(); ++k)
     coverage_[k].count(std::abs(error) < static_cast<double>(k + 1) * sigma);
   magnitudes_.add(magnitude_probability(error / sigma));
-  for (std::size_t b = 0; b < replicates_.size(); ++b) {
-    replicates_[b].weight += weights[b];
-    replicates_[b].square += weights[b] * square;
-    replicates_[b].variance += weights[b] * variance;
-  }
 }
 
 Estimated ErrorStatistics::bias(double confidence) const {
@@ -60,38 +45,12 @@ Estimated ErrorStatistics::bias(double confidence) const {
   return {prior_sigma_ * mean, prior_sigma_ * (mean - half), prior_sigma_ * (mean + half)};
 }
 
-template <class Ratio>
-Estimated ErrorStatistics::between_replicates(double value, Ratio&& ratio) const {
-  std::vector<double> values;
-  for (const Replicate& r : replicates_)
-    if (r.weight > 0.0) values.push_back(ratio(r));
-  if (values.size() < 20 || n_ < 2) return {value, nan_value, nan_value};
-  std::ranges::sort(values);
-  const auto at = [&](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto k = static_cast<std::size_t>(place);
-    const double rest = place - static_cast<double>(k);
-    return k + 1 < values.size() ? (1.0 - rest) * values[k] + rest * values[k + 1] : values[k];
-  };
-  return {value, at(0.025), at(0.975)};
-}
-
-Estimated ErrorStatistics::rmse() const {
-  const double value =
-      n_ > 0 ? prior_sigma_ * std::sqrt(square_ / static_cast<double>(n_)) : nan_value;
-  return between_replicates(
-      value, [&](const Replicate& r) { return prior_sigma_ * std::sqrt(r.square / r.weight); });
-}
-
-Estimated ErrorStatistics::rmse_normal(double z) const {
-  const double n = static_cast<double>(n_);
-  if (n_ < 2)
-    return {nan_value, -std::numeric_limits<double>::infinity(),
-            std::numeric_limits<double>::infinity()};
-  const double mean = square_ / n, value = std::sqrt(mean);
+Estimated ErrorStatistics::rmse(double confidence) const {
+  if (n_ == 0) return {nan_value, nan_value, nan_value};
+  const double n = static_cast<double>(n_), mean = square_ / n;
   const double spread = std::sqrt(std::max(0.0, fourth_ / n - mean * mean) / (n - 1.0));
-  const double half = value > 0.0 ? prior_sigma_ * z * spread / (2.0 * value) : 0.0;
-  return {prior_sigma_ * value, prior_sigma_ * value - half, prior_sigma_ * value + half};
+  return root_between(prior_sigma_ * std::sqrt(mean), mean > 0.0 ? spread / mean : 0.0, n_,
+                      confidence);
 }
 
 double ErrorStatistics::mean_sigma() const {
@@ -99,8 +58,18 @@ double ErrorStatistics::mean_sigma() const {
 }
 
 Estimated ErrorStatistics::deception() const {
-  return between_replicates(n_ > 0 ? std::sqrt(square_ / variance_) : nan_value,
-                            [](const Replicate& r) { return std::sqrt(r.square / r.variance); });
+  if (n_ == 0) return {nan_value, nan_value, nan_value};
+  // Of a ratio R of means: the scatter of square - R variance over the mean square.
+  const double n = static_cast<double>(n_), ratio = square_ / variance_;
+  const double scatter =
+      (fourth_ - 2.0 * ratio * square_variance_ + ratio * ratio * variance_square_) / n;
+  const double spread = std::sqrt(std::max(0.0, scatter) / (n - 1.0));
+  return root_between(std::sqrt(ratio), square_ > 0.0 ? spread * n / square_ : 0.0, n_, 0.95);
+}
+
+double ErrorStatistics::sigmas_above() const {
+  const double n = static_cast<double>(n_);
+  return n_ > 0 ? stats::deviate(n * square_ / variance_, n) : 0.0;
 }
 
 }  // namespace drift::mc

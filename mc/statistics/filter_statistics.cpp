@@ -4,17 +4,21 @@
 
 #include "core/estimate/estimate_result.hpp"
 #include "core/estimate/start_consistency.hpp"
+#include "core/stats/chi_square.hpp"
 #include "core/stats/chi_square_band.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::mc {
 
-void ChiSquareSum::add(double value, double degrees) {
-  if (!(degrees > 0.0) || std::isnan(value)) return;
+bool ChiSquareSum::add(double value, double degrees) {
+  if (!(degrees > 0.0) || std::isnan(value)) return false;
   sum += value;
   dof += degrees;
-  in_band.count(stats::chi_square_band(degrees).holds(value / degrees));
-  place.add(chi_square_probability(value, degrees));
+  const double below = chi_square_probability(value, degrees);
+  const bool inside = below >= 0.025 && below <= 0.975;
+  in_band.count(inside);
+  place.add(below);
+  return inside;
 }
 
 double ChiSquareSum::low() const {
@@ -24,7 +28,7 @@ double ChiSquareSum::high() const {
   return stats::chi_square_band(dof).high;
 }
 double ChiSquareSum::sigmas_above() const {
-  return dof > 0.0 ? (mean() - 1.0) / std::sqrt(2.0 / dof) : 0.0;
+  return dof > 0.0 ? stats::deviate(sum, dof) : 0.0;
 }
 
 double ParameterHealth::start_ratio() const {
@@ -32,8 +36,7 @@ double ParameterHealth::start_ratio() const {
                               : std::nan("");
 }
 
-FilterStatistics::FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules,
-                                   std::size_t replicates)
+FilterStatistics::FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules)
     : columns_(columns),
       rules_(rules),
       health_(columns.layout.size()),
@@ -42,7 +45,7 @@ FilterStatistics::FilterStatistics(const StudyColumns::Filter& columns, const He
       values_(columns.starts),
       sigmas_(columns.starts) {
   for (std::size_t k = 0; k < columns.layout.size(); ++k) {
-    errors_.emplace_back(columns.layout.sigma[static_cast<Eigen::Index>(k)], replicates);
+    errors_.emplace_back(columns.layout.sigma[static_cast<Eigen::Index>(k)]);
     samples_[k].reserve(most_samples);
   }
 }
@@ -51,7 +54,7 @@ bool FilterStatistics::estimated(std::span<const double> row, std::size_t start)
   return row[columns_.at(start, StudyColumns::status)] == static_cast<double>(EstimateStatus::ok);
 }
 
-void FilterStatistics::add(std::span<const double> row, std::span<const double> weights) {
+void FilterStatistics::add(std::span<const double> row) {
   for (std::size_t s = 0; s < starts_.size(); ++s) add_start(row, s);
   if (starts_.size() > 1) compare_starts(row);
   if (!estimated(row, 0)) return;
@@ -59,7 +62,7 @@ void FilterStatistics::add(std::span<const double> row, std::span<const double> 
     const double error = row[columns_.estimate(0, k)] - row[columns_.truth[k]];
     const double sigma = row[columns_.sigma(0, k)];
     if (std::isnan(error)) continue;  // a truth that has no such parameter
-    errors_[k].add(error, sigma, weights);
+    errors_[k].add(error, sigma);
     if (samples_[k].size() < most_samples) samples_[k].push_back({error, sigma});
   }
 }
@@ -79,12 +82,11 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
     return;
   }
   const auto of = [&](C::Field field) { return row[columns_.at(start, field)]; };
-  s.nis.add(of(C::nis), of(C::nis_dof));
+  const bool healthy = s.nis.add(of(C::nis), of(C::nis_dof));
   s.nees.add(of(C::nees), of(C::nees_dof));
   s.nees_all.add(of(C::nees_all), static_cast<double>(columns_.layout.size()));
   if (std::isfinite(of(C::lag1)))
     s.white.count(std::abs(of(C::lag1)) < stats::half_width_95 / std::sqrt(of(C::nis_dof)));
-  const bool healthy = stats::chi_square_band(of(C::nis_dof)).holds(of(C::nis) / of(C::nis_dof));
   bool some_wrong = false;
   for (std::size_t k = 0; k < health_.size(); ++k) {
     const double sigma = row[columns_.sigma(start, k)];

@@ -20,13 +20,14 @@ struct ChiSquareSum {
   double sum = 0.0, dof = 0.0;
   stats::Rate in_band;     ///< single runs inside their own 95 % band
   DistributionBins place;  ///< of single runs in the chi-square of their degrees
-  void add(double value, double degrees);
+  /// Whether it lies inside its band.
+  bool add(double value, double degrees);
   double mean() const { return sum / dof; }  ///< 1 for an honest filter
   /// Where mean() lies with 95 % probability if the filter is honest.
   double low() const;
   double high() const;
   bool holds() const { return mean() >= low() && mean() <= high(); }
-  /// How many sigmas of an honest filter's mean() it lies above 1: the variance is 2/dof.
+  /// The normal number that is as rarely exceeded as mean() if the filter is honest.
   double sigmas_above() const;
 };
 
@@ -60,11 +61,10 @@ struct Sample {
 /// ParameterHealth are those of start 0; the starts share their data.
 class FilterStatistics {
  public:
-  FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules,
-                   std::size_t replicates);
+  FilterStatistics(const StudyColumns::Filter& columns, const HealthRules& rules);
 
-  /// row: of a run whose simulation succeeded. weights: of the bootstrap.
-  void add(std::span<const double> row, std::span<const double> weights);
+  /// row: of a run whose simulation succeeded.
+  void add(std::span<const double> row);
 
   const StudyColumns::Filter& columns() const { return columns_; }
   const std::vector<ErrorStatistics>& errors() const { return errors_; }  ///< layout order

@@ -4,10 +4,9 @@
 
 namespace drift::mc {
 
-PointStatistics::PointStatistics(const Study& study, std::size_t replicates)
-    : columns_(study), weights_(study.monte_carlo.seed, replicates), failures_(columns_, study) {
+PointStatistics::PointStatistics(const Study& study) : columns_(study), failures_(columns_, study) {
   for (const auto& filter : columns_.filters)
-    filters_.emplace_back(filter, HealthRules{study.monte_carlo.healthy_sigma, 5.0}, replicates);
+    filters_.emplace_back(filter, HealthRules{study.monte_carlo.healthy_sigma, 5.0});
 }
 
 void PointStatistics::add(const Block& block) {
@@ -20,8 +19,7 @@ void PointStatistics::add(const Block& block) {
     ++runs_;
     failures_.add(status, run, row);
     if (status != RunStatus::ok && status != RunStatus::filter_diverged) continue;
-    const std::span<const double> weights = weights_.of(run);
-    for (FilterStatistics& filter : filters_) filter.add(row, weights);
+    for (FilterStatistics& filter : filters_) filter.add(row);
   }
 }
 

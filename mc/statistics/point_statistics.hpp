@@ -9,8 +9,7 @@ namespace drift::mc {
 /// grow with the runs, and the same bits for any threads and workers because the order is given.
 class PointStatistics {
  public:
-  /// replicates: of the bootstrap; 0 for none.
-  explicit PointStatistics(const Study& study, std::size_t replicates = 200);
+  explicit PointStatistics(const Study& study);
 
   /// Blocks of this point, by ascending run number.
   void add(const Block& block);
@@ -22,7 +21,6 @@ class PointStatistics {
 
  private:
   StudyColumns columns_;
-  BootstrapWeights weights_;
   std::vector<FilterStatistics> filters_;
   FailureStatistics failures_;
   std::uint64_t runs_ = 0;

@@ -17,7 +17,7 @@ double width_of(const FilterStatistics& filter, const StopSpec& spec, double z) 
   for (std::size_t k = 0; k < params.size(); ++k) {
     if (TermLibrary::specs[params[k]].key.view() != key) continue;
     const ErrorStatistics& e = filter.errors()[k];
-    const double width = e.rmse_normal(z).half_width() / e.prior_sigma();
+    const double width = e.rmse(spec.confidence).half_width() / e.prior_sigma();
     return width >= 0.0 ? width : infinite;
   }
   return -1.0;  // a filter that does not estimate it waits for nothing
@@ -27,7 +27,7 @@ double width_of(const FilterStatistics& filter, const StopSpec& spec, double z) 
 
 HalfWidthRule::HalfWidthRule(const std::vector<StudyPoint>& points, const StopSpec& spec)
     : spec_(spec), z_(stats::normal_half_width(spec.confidence)) {
-  for (const StudyPoint& p : points) points_.push_back({PointStatistics(p.study, 0), 0});
+  for (const StudyPoint& p : points) points_.push_back({PointStatistics(p.study), 0});
 }
 
 double HalfWidthRule::half_width(std::size_t point) const {

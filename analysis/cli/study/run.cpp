@@ -133,6 +133,11 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (stopped(outcome)) return outcome.code;  // one line; failures are listed when the study ends
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
+  if (outcome.code == ExitCode::failed_runs)
+    complain(
+        "error: {} of the runs failed (allowed {}): what is left may be a biased choice. See "
+        "why: driftscope status {}\n",
+        outcome.failed, options.allowed_failures, shell_word(folder));
   if (!outcome.complete) return outcome.code;
   if (outcome.code == ExitCode::ok || outcome.code == ExitCode::failed_runs)
     program.present(study, work, reader, folder);

@@ -89,9 +89,11 @@ struct BlockHtml {
     if (t.rows.size() <= most_open) return html_of(t);
     Table body = t;
     body.title.clear();
-    return folded(fmt::format("{} ({} rows)", escaped(t.title.empty() ? "Table" : t.title),
-                              shown(t, t.limit.page).rows.size()),
-                  html_of(body));
+    const std::vector<TableRow> rows = shown(t, t.limit.page).rows;
+    const auto counted = std::ranges::count_if(rows, [](const TableRow& r) { return !r.heading; });
+    return folded(
+        fmt::format("{} ({} rows)", escaped(t.title.empty() ? "Table" : t.title), counted),
+        html_of(body));
   }
   std::string operator()(const Figure& f) const {
     const bool zoomed = !f.zoom.empty() && !zoom_script().empty();

@@ -19,6 +19,9 @@ struct Tally {
   double sigmas_off = 1.0;  ///< factor between errors and sigmas of the worst pair
   const Pair* overconfident = nullptr;
   const Pair* not_linear = nullptr;  ///< the worst whose truths are those that it believes in
+  const Pair* unclaimed = nullptr;   ///< of the parameter that is farthest off
+  double times = 0.0;                ///< of its sigma
+  const Pair* diverged = nullptr;    ///< of the most runs without an estimate
   const Pair* unlike = nullptr;      ///< the one with the largest innovations, of those too large
 };
 
@@ -49,6 +52,15 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
     tally.sigmas_off = off;
     tally.overconfident = &pair;
   }
+  if (const auto off = far_off(filter); off && off->times > tally.times) {
+    tally.unclaimed = &pair;
+    tally.times = off->times;
+  }
+  if (const stats::Rate& diverged = filter.starts().front().diverged;
+      diverged.hits > 0 &&
+      (tally.diverged == nullptr ||
+       diverged.value() > first_start(results, *tally.diverged).diverged.value()))
+    tally.diverged = &pair;
   if (not_linear(results, pair) &&
       (tally.not_linear == nullptr ||
        sigmas_off(filter.starts().front()) > sigmas_off(first_start(results, *tally.not_linear))))
@@ -88,6 +100,20 @@ std::string sigmas_text(const StudyResults& results, const Tally& t) {
   return fmt::format(
       "Do not trust the sigmas: errors are up to {} times as large (root of NEES/dof; {}).",
       number_text(t.sigmas_off, 2), pair_in_words(results, *t.overconfident));
+}
+
+std::string unclaimed_text(const StudyResults& results, const Pair& pair) {
+  const mc::FilterStatistics& filter = statistics_of(results, pair);
+  const FarOff off = far_off(filter).value();
+  return fmt::format("Do not trust the sigma of {}: its errors are {} times as large ({}).",
+                     far_off_text(filter, off), number_text(off.times, 3),
+                     pair_in_words(results, pair));
+}
+
+std::string diverged_text(const StudyResults& results, const Pair& pair) {
+  return fmt::format(
+      "Up to {} of the runs diverged ({}): errors, coverage and NEES are of the others.",
+      rate_cell(first_start(results, pair).diverged).text, pair_in_words(results, pair));
 }
 
 /// What makes sigmas too small where truths, noise and filter are alike, and what to do.
@@ -176,7 +202,13 @@ InBrief study_in_brief(const StudyResults& results) {
     if (t->sigmas_off > much_too_small) {
       brief.more.add(Weight::wrong, sigmas_text(results, *t));
       brief.tone = Tone::bad;
+    } else if (t->unclaimed != nullptr) {
+      brief.more.add(Weight::wrong, unclaimed_text(results, *t->unclaimed));
+      brief.tone = Tone::bad;
     }
+  for (const Tally* t : {&wrong, &incomplete, &right})
+    if (t->diverged != nullptr)
+      brief.more.add(Weight::doubtful, diverged_text(results, *t->diverged));
   add_doubts(brief, results, right);
   if (lost > 0) {
     brief.more.add(
@@ -194,8 +226,8 @@ InBrief study_in_brief(const StudyResults& results) {
   }
   brief.more.add(
       Weight::note,
-      "A silent failure: some parameter is more than 5 sigma off, and nothing in the run shows "
-      "it.");
+      "A silent failure: some parameter that the filter claims to know is more than 5 sigma off, "
+      "and nothing in the run shows it.");
   return brief;
 }
 

@@ -1,12 +1,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/study/sections.hpp"
 
 namespace drift::report {
 namespace {
 
 using mc::FilterStatistics;
+
+/// What the share of wrong runs does not hold: a parameter that the filter does not claim to know.
+std::string unclaimed_text(const FilterStatistics& filter) {
+  const std::optional<FarOff> off = far_off(filter);
+  if (!off || filter.health()[off->parameter].claims.hits > 0) return "";
+  return fmt::format("; {}, is {} times its sigma off", far_off_text(filter, *off),
+                     number_text(off->times, 3));
+}
+
+/// Of those that diverged there are no errors.
+std::string diverged_text(const mc::StartStatistics& s) {
+  return s.diverged.hits > 0 ? fmt::format("; {} of the runs diverged, errors are of the others",
+                                           rate_cell(s.diverged).text)
+                             : "";
+}
 
 /// What no single parameter shows: combinations that the filter claims to know.
 std::string off_text(const mc::StartStatistics& s) {
@@ -29,23 +45,42 @@ std::string headline_of(const StudyResults& results, const Pair& pair) {
         "know; silent failures {}{}.",
         start, model_in_words(lacks),
         percent_cell(coverage_of_claims(filter, claims_of(results))).text, rate_cell(s.silent).text,
-        off_text(s));
+        off_text(s) + unclaimed_text(filter) + diverged_text(s));
   std::string text = fmt::format(
-      "{} ({}): in {} of the runs some parameter is more than 5 sigma off; silent failures, where "
-      "nothing in the run shows it: {}",
+      "{} ({}): in {} of the runs some parameter that the filter claims to know is more than 5 "
+      "sigma off; silent failures, where nothing in the run shows it: {}",
       start, model_in_words(lacks), rate_cell(s.wrong).text, rate_cell(s.silent).text);
   const std::size_t k = worst_parameter(filter, claims_of(results));
   if (k < filter.errors().size())
     text += fmt::format("; worst {}: its error is {} times its sigma", key_at(filter, k),
                         number_text(filter.errors()[k].deception().value));
-  return text + off_text(s) + ".";
+  return text + off_text(s) + unclaimed_text(filter) + diverged_text(s) + ".";
 }
 
 }  // namespace
 
 double sigmas_off(const mc::StartStatistics& s) {
   const double nees = s.nees.mean();
-  return std::isfinite(nees) ? std::sqrt(nees) : 1.0;
+  const bool chance = !(s.nees.sigmas_above() > inference::FitLimits::misfit);
+  return std::isfinite(nees) && !chance ? std::sqrt(nees) : 1.0;
+}
+
+std::optional<FarOff> far_off(const FilterStatistics& filter) {
+  std::optional<FarOff> worst;
+  for (std::size_t k = 0; k < filter.errors().size(); ++k) {
+    const mc::ErrorStatistics& e = filter.errors()[k];
+    const double times = e.deception().value;
+    if (times > (worst ? worst->times : much_too_small) &&
+        e.sigmas_above() > inference::FitLimits::misfit)
+      worst = FarOff{k, times};
+  }
+  return worst;
+}
+
+std::string far_off_text(const FilterStatistics& filter, const FarOff& off) {
+  return key_at(filter, off.parameter) + (filter.health()[off.parameter].claims.hits > 0
+                                              ? ""
+                                              : ", which the filter does not claim to know");
 }
 
 std::string pair_in_words(const StudyResults& results, const Pair& pair) {

@@ -157,9 +157,9 @@ Section rate_course(const StudyResults& results) {
       for (const stats::Rate& rate : start.silent_course.steps()) add(rate);
       add(start.silent);
       panel.series.push_back(std::move(s));
-      said.items.push_back(fmt::format("{}, filter {}: {} after {} runs.", name_of(results, p),
+      said.items.push_back(fmt::format("{}, filter {}: {} after {} run{}.", name_of(results, p),
                                        f.columns().name, rate_cell(start.silent).text,
-                                       start.silent.of));
+                                       start.silent.of, plural(start.silent.of)));
     }
     chart.panels.push_back(std::move(panel));
   }

@@ -77,7 +77,7 @@ Section information_section(const StudyResults& results, int threads) {
   Section section{"What the plan promises and what the runs found",
                   {Paragraph{"Promised: posterior over prior sigma by Fisher information along "
                              "the integrated test (learning ratio). Found: root mean square error "
-                             "of the runs over the prior sigma, with its bootstrap interval."}},
+                             "of the runs over the prior sigma, with its interval of 95 %."}},
                   On::page};
   std::set<std::string> shown;  // points that differ in the truth alone have one plan
   for (const std::size_t p : pictured_points(results)) {

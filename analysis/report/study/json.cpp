@@ -115,6 +115,7 @@ Json study_document(const StudyResults& results) {
     for (const auto& [key, value] : point.values) values[key] = value;
     Json one = {{"id", point.id},
                 {"label", point.label},
+                {"name", name_of(results, p)},
                 {"values", values},
                 {"truth", key_of(point.study.truth.coupling)},
                 {"runs", results.statistics[p].runs()},

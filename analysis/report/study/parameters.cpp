@@ -13,8 +13,8 @@ namespace {
 using mc::ErrorStatistics;
 using mc::FilterStatistics;
 
-/// Monte Carlo ranking of a pair: RMSE over prior sigma of every parameter with bootstrap
-/// intervals, best known first.
+/// Monte Carlo ranking of a pair: RMSE over prior sigma of every parameter with its
+/// interval, best known first.
 Figure ranking_figure(const StudyResults& results, const Pair& pair) {
   const FilterStatistics& filter = statistics_of(results, pair);
   std::vector<std::size_t> order(filter.errors().size());
@@ -39,7 +39,7 @@ Figure ranking_figure(const StudyResults& results, const Pair& pair) {
   }
   return figure_of(
       std::move(chart),
-      "Parameters by Monte Carlo RMSE over prior sigma with 95 % bootstrap intervals; in "
+      "Parameters by Monte Carlo RMSE over prior sigma with 95 % intervals; in "
       "brackets what the filter says, sigma over prior sigma. 1: nothing learned; an interval "
       "wholly above 1: misled.");
 }
@@ -50,7 +50,7 @@ Table parameter_table(const StudyResults& results, const Pair& pair) {
   Table table(pair_in_words(results, pair),
               "<parameter | <unit | bias | RMSE | 95 % | sigma | RMSE/prior | sigma/prior | "
               "RMSE/sigma | in 1s % | 2s % | 3s % | start ratio | silent %",
-              "RMSE with the 95 % interval of a bootstrap over runs. Bias ± 95 %. Sigma: root mean "
+              "RMSE with its 95 % interval. Bias ± 95 %. Sigma: root mean "
               "square of what the filter says. RMSE/sigma: the deception ratio, 1 for an honest "
               "filter. Start ratio: spread between starts over sigma, above 5 the answer depends "
               "on the start. An honest filter has 68.3, 95.4 and 99.7 % inside 1, 2 and 3 sigma.");

@@ -22,8 +22,9 @@ Report study_report(const StudyResults& results) {
   report.title = results.study.title.empty() ? "Monte Carlo study" : results.study.title;
   const std::size_t points = results.points.size();
   report.subtitle =
-      fmt::format("{}{} runs at {} study point{}, seed {}", all_runs(results),
+      fmt::format("{}{} run{} at {} study point{}, seed {}", all_runs(results),
                   results.unfinished.empty() ? "" : fmt::format(" of {}", results.asked * points),
+                  plural(results.unfinished.empty() ? all_runs(results) : results.asked * points),
                   points, plural(points), results.study.monte_carlo.seed);
   report.headlines = headlines(results, most_headlines);
   report.brief = study_in_brief(results);

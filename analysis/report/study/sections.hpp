@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
@@ -26,9 +27,19 @@ std::vector<std::string> headlines(const StudyResults& results,
 inline constexpr std::size_t most_headlines = 12;  ///< above the tables of a report
 
 /// How many times as large as their sigmas errors are, over all that a filter claims to know: the
-/// root of NEES/dof; 1 where no truth tells.
+/// root of NEES/dof; 1 where no truth tells, or where it may be chance (FitLimits::misfit).
 double sigmas_off(const mc::StartStatistics& start);
 inline constexpr double much_too_small = 2.0;  ///< of such a factor: the sigmas are not to be used
+
+/// The parameter whose errors are most times as large as its sigma, of those that are
+/// much_too_small and not by chance, whether the filter claims to know it or not.
+struct FarOff {
+  std::size_t parameter = 0;  ///< place in the layout
+  double times = 1.0;
+};
+std::optional<FarOff> far_off(const mc::FilterStatistics& filter);
+/// "M_y, which the filter does not claim to know", where it does in no run.
+std::string far_off_text(const mc::FilterStatistics& filter, const FarOff& off);
 
 /// Of the mean of a chi-square over its degrees of freedom: beyond, a misfit is seen in any table.
 inline constexpr double evident_misfit = 1.1;

@@ -55,7 +55,8 @@ TEST(PatchedNoise, WithItTheFitIsOneOfTheNoise) {
   const test::ScratchFolder folder;
   const mc::Study study =
       read_text(folder, "s.toml",
-                "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = \"twelve\"\ndwell = \"30 min\"\nsample = \"60 s\"\n"
+                "schema = 1\n[site]\nlatitude = \"45.75 deg\"\n[plan]\npreset = \"twelve\"\ndwell "
+                "= \"30 min\"\nsample = \"60 s\"\n"
                 "mode = \"free\"\n[[filter]]\nname = \"nominal\"\ncoupling = \"eq5\"\n");
   const FilterSpec nominal = study.filters.front();
   TruthSpec unit_of_test;

@@ -4,8 +4,10 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "core/stats/chi_square_band.hpp"
+#include "core/stats/normal.hpp"
 
 namespace drift::stats::chi_square_test {
 namespace {
@@ -48,15 +50,33 @@ TEST(ChiSquare, StrengthHasItsInverse) {
   EXPECT_EQ(strength(5.0, 0), 0.0);
 }
 
+TEST(ChiSquare, DeviateIsTheNormalNumberOfTheSameTail) {
+  // One degree is the square of a normal number: twice the tail of that.
+  for (const double z : {0.5, 1.0, 3.0, 8.0, 30.0, 36.0})
+    EXPECT_NEAR(deviate(z * z, 1.0), -normal_quantile(std::erfc(z / std::numbers::sqrt2)), 1e-9);
+  EXPECT_NEAR(deviate(2000.0, 2.0) - deviate(1379.0, 2.0), 7.59, 0.02)
+      << "no step where the tail is no number any more: sqrt(2000) - sqrt(1379)";
+  // Many degrees are normal, skewed by the third of sqrt(2/dof) times (z^2 - 1).
+  const double dof = 1e6;
+  EXPECT_NEAR(deviate(dof + 5.0 * std::sqrt(2.0 * dof), dof), 5.0,
+              24.0 / 3.0 * std::sqrt(2.0 / dof));
+  EXPECT_LT(deviate(1e-9, 4.0), -7.0);
+}
+
 TEST(ChiSquareBand, HoldsTheMiddleOfTheDistribution) {
-  // Exact ends by Boost; the header promises 0.01 from 6 degrees on and 0.1 below.
-  for (const double dof : {1.0, 2.0, 6.0, 20.0, 1000.0}) {
+  // Two degrees are an exponential; of others 2.5 % lie beyond either end.
+  EXPECT_NEAR(chi_square_band(2.0).low, -std::log(0.975), 1e-12);
+  EXPECT_NEAR(chi_square_band(2.0).high, -std::log(0.025), 1e-12);
+  for (const double dof : {1.0, 6.0, 20.0, 1e6}) {
     const Band band = chi_square_band(dof);
-    const double low = boost::math::gamma_p_inv(0.5 * dof, 0.025) * 2.0 / dof;
-    const double high = boost::math::gamma_q_inv(0.5 * dof, 0.025) * 2.0 / dof;
-    EXPECT_NEAR(band.low, low, dof < 6.0 ? 0.1 : 0.01);
-    EXPECT_NEAR(band.high, high, dof < 6.0 ? 0.1 : 0.01);
+    EXPECT_NEAR(log_tail(dof * band.high, dof), std::log(0.025), 1e-9) << dof;
+    EXPECT_NEAR(log_tail(dof * band.low, dof), std::log(0.975), 1e-9) << dof;
+    for (const double end : {band.low, band.high})
+      EXPECT_NEAR(chi_square_chance(end, dof), 0.05, 1e-9) << dof;
   }
+  EXPECT_TRUE(std::isnan(chi_square_band(0.0).low));
+  EXPECT_FALSE(chi_square_band(0.0).holds(1.0));
+  EXPECT_EQ(chi_square_chance(1e300, 3.0), 0.0);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void expect_one(const mc::ChiSquareSum& sum, const std::string& what) {
 mc::StartStatistics first_start(const mc::Study& study, std::size_t runs, const std::string& what) {
   const mc::StudyTask task(study);
   const auto worker = task.worker();
-  mc::PointStatistics statistics(task.study(), 0);
+  mc::PointStatistics statistics(task.study());
   statistics.add(run_block(task, *worker, 0, runs));
   EXPECT_EQ(statistics.failures().lost().hits, 0u) << what;
   return statistics.filters()[0].starts()[0];

@@ -99,7 +99,7 @@ Outcome outcome_of(const Scene& scene, const TermInfo& term, std::string_view es
   try {
     const mc::StudyTask task(matched_study(scene, term, estimator));
     const auto worker = task.worker();
-    mc::PointStatistics statistics(task.study(), 0);
+    mc::PointStatistics statistics(task.study());
     statistics.add(run_block(task, *worker, 0, runs));
     out.lost = static_cast<double>(statistics.failures().lost().hits);
     out.nis = statistics.filters()[0].starts()[0].nis;

@@ -56,9 +56,10 @@ std::string said(const report::StudyResults& results, const std::string& part) {
 
 TEST(StudyBrief, InnovationsThatARightFilterDoesNotExpectAreSaid) {
   const std::string innovations = "The innovations are not those that the filter expects";
-  // 40 runs of 1000 scalars: 1 sigma of NIS/dof is sqrt(2/40000) = 0.0071.
-  const double sigma = std::sqrt(2.0 / 40000.0);
-  const double limit = inference::FitLimits::misfit * sigma;
+  // 40 runs of 1000 scalars: z sigma of NIS/dof, to the order of its skewness (Cornish and Fisher),
+  // are z sqrt(2/dof) + 2/3 (z^2 - 1)/dof.
+  constexpr double z = inference::FitLimits::misfit, dof = 40000.0;
+  const double limit = z * std::sqrt(2.0 / dof) + 2.0 / 3.0 * (z * z - 1.0) / dof;
   EXPECT_EQ(said(results_of(test::small_study, 40, 1), innovations), "");
   EXPECT_EQ(said(results_of(test::small_study, 40, 1, 1.0 + 0.99 * limit), innovations), "");
   EXPECT_NE(said(results_of(test::small_study, 40, 1, 1.0 + 1.01 * limit), innovations), "");

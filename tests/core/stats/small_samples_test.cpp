@@ -1,4 +1,4 @@
-#include "core/stats/student.hpp"
+#include "core/stats/small_samples.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/stats/normal.hpp"
 
-namespace drift::stats::student_test {
+namespace drift::stats::small_samples_test {
 namespace {
 
 TEST(StudentsT, HasClosedFormsOfOneAndTwoDegreesAndTheNormalLimit) {
@@ -21,5 +21,13 @@ TEST(StudentsT, HasClosedFormsOfOneAndTwoDegreesAndTheNormalLimit) {
   }
 }
 
+TEST(SmallSamples, TailsAreThoseOfTables) {
+  EXPECT_NEAR(beyond_t(2.262157, 9.0), 0.05, 1e-6);
+  EXPECT_NEAR(beyond_t(-4.780913, 9.0), 0.001, 1e-7);
+  EXPECT_NEAR(beyond_f(3.633089, 4.0, 9.0), 0.05, 1e-6);
+  EXPECT_EQ(beyond_t(-HUGE_VAL, 9.0), 0.0);
+  EXPECT_EQ(beyond_f(HUGE_VAL, 4.0, 9.0), 0.0);
+}
+
 }  // namespace
-}  // namespace drift::stats::student_test
+}  // namespace drift::stats::small_samples_test
