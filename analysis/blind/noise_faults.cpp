@@ -32,6 +32,18 @@ Mat3X correlated(const World& world, double tau, Stream& stream) {
   return out;
 }
 
+/// A value of unit variance for each chain, three of it.
+Mat3X of_each_chain(const World& world, Stream& stream) {
+  Mat3X out(3, world.intervals());
+  Vec3 x;
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    if (i == 0 || world.timeline.intervals[static_cast<std::size_t>(i)].cage)
+      for (int a = 0; a < 3; ++a) x[a] = stream.normal();
+    out.col(i) = x;
+  }
+  return out;
+}
+
 HiddenEffect fault(std::string term, std::string words, std::vector<HiddenParameter> parameters) {
   HiddenEffect e;
   e.term = std::move(term);
@@ -68,7 +80,11 @@ double size_of_noise(const Timeline& timeline, const CovariateSpec& c, Stream& s
 
 HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
   HiddenEffect e;
-  switch (kind % num_noise_faults) {
+  constexpr std::size_t of_each_caging = 5, wandering = 3, enough = 3;
+  kind %= num_noise_faults;
+  if (kind == of_each_caging && static_cast<std::size_t>(world.timeline.chains) < enough)
+    kind = wandering;
+  switch (kind) {
     case 0: {
       const double factor = between(0.75, 1.6, stream);
       world.acc_factor = world.gimbal_factor = factor;
@@ -100,6 +116,12 @@ HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
                  factor * world.readout.accelerometer_noise);
       e = fault("coloured_accelerometer", "correlated noise of the accelerometers",
                 {{"factor", factor, "1"}, minutes("tau", tau)});
+      break;
+    }
+    case of_each_caging: {
+      const double sigma = between(3e-3, 3e-2, stream);
+      World::add(world.disturbance, of_each_chain(world, stream), sigma * unit::deg_per_h.to_si);
+      e = fault("caging_drift", "another drift after each caging", {{"sigma", sigma, "deg/h"}});
       break;
     }
     default: {

@@ -9,7 +9,7 @@
 
 namespace drift::blind {
 
-inline constexpr std::size_t num_noise_faults = 6;
+inline constexpr std::size_t num_noise_faults = 7;
 
 /// Makes the noise of a world other than declared, without any further physics, and says how:
 ///
@@ -18,9 +18,12 @@ inline constexpr std::size_t num_noise_faults = 6;
 ///   drift_random_walk    1e-3 to 5e-3 deg/h/sqrt(h)
 ///   markov_drift         2e-3 to 1e-2 deg/h, correlated over 10 to 60 min
 ///   coloured_accelerometer   0.5 to 1.5 declared sigmas, correlated over 3 to 15 min
+///   caging_drift         3e-3 to 3e-2 deg/h, another drift after each caging; without three
+///   cagings
+///                        markov_drift
 ///   outliers             0.1 to 1 % of the samples wrong by 10 sigma
 ///
-/// Sizes: physics.md 4, entries 8, 9, 11, 50, and 3.4.
+/// Sizes: physics.md 4, entries 8 to 11, 50, and 3.4.
 HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream);
 
 /// The timeline as it is recorded with covariates that have noise of their own, white from row to

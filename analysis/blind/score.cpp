@@ -70,7 +70,7 @@ bool is_twin(const Answer& answer, const std::vector<HiddenEffect>& effects,
 
 bool is_drift_noise(const KeyEntry& key) {
   return key.effects.front().term == "drift_random_walk" ||
-         key.effects.front().term == "markov_drift";
+         key.effects.front().term == "markov_drift" || key.effects.front().term == "caging_drift";
 }
 
 /// Numbers of the hidden effects against those of the causes that name them, in the unit of the

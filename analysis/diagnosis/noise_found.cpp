@@ -31,7 +31,7 @@ NoiseFound noise_found(const search::Fitted& fitted,
 std::optional<remark::DrivesOneGyro> noise_of_one_axis(const search::Fitted& nominal) {
   const inference::NoiseModel& all = nominal.noise.model;
   if (!nominal.noise.driven ||
-      all.angle_random_walk + all.drift_random_walk + all.markov_drift == 0.0)
+      all.angle_random_walk + all.drift_random_walk + all.markov_drift + all.caging_drift == 0.0)
     return std::nullopt;
   const inference::MarginalLikelihood likelihood(nominal.problem);
   const auto value = [&](const inference::NoiseModel& m) { return likelihood.log_likelihood2(m); };

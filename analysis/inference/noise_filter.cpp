@@ -11,7 +11,7 @@ namespace {
 
 /// Numbers of states that there is code for; states that are not there stay zero.
 constexpr int rounded_up(int states) {
-  for (const int n : {3, 4, 6, 9, 12})
+  for (const int n : {3, 4, 6, 9, 12, 16})
     if (states <= n) return n;
   return most_states;
 }
@@ -30,6 +30,8 @@ void for_states(int states, F&& f) {
       return f.template operator()<9>();
     case 12:
       return f.template operator()<12>();
+    case 16:
+      return f.template operator()<16>();
     default:
       return f.template operator()<most_states>();
   }

@@ -99,9 +99,10 @@ struct NoiseLimits {
   /// Chance below which it is not as declared. Test: Thresholds.NoiseIsSaid...
   static constexpr double significant_p = 1e-3;
   /// Components times time constants that are tried at once, at most: two random walks, two Markov
-  /// processes of two time constants each. Bounds the chance that the best of them is chance; a
-  /// gain of 12.9 has one of 1e-3. Test: Noise.AngleRandomWalkIsFoundWithItsSize
-  static constexpr double alternatives = 6.0;
+  /// processes of two time constants each, a drift of each caging. Bounds the chance that the best
+  /// of them is chance; a gain of 13.2 has one of 1e-3. Test:
+  /// Noise.AngleRandomWalkIsFoundWithItsSize
+  static constexpr double alternatives = 7.0;
   /// [2 log L] by which noise of one gyro alone beats that of all three; the best of three axes and
   /// four sizes does so by chance 12 exp(-5) = 0.08 times at most.
   static constexpr double one_gyro = 10.0, one_gyro_tries = 12.0;
@@ -114,8 +115,8 @@ struct NoiseLimits {
 struct NoisePrior {
   static constexpr double as_declared = 0.8;  ///< whatever drives the mean
   /// Otherwise white noise is of unknown size and each set of what may drive the platform (two
-  /// random walks, two Markov processes) is as probable as any other.
-  static constexpr double sets = 16.0;
+  /// random walks, two Markov processes, a drift of each caging) is as probable as any other.
+  static constexpr double sets = 32.0;
   static double log_not_as_declared() { return std::log((1.0 - as_declared) / sets); }
   /// Bias instability of gyros over their angle random walk [1/sqrt(h)], as data sheets of 0.001 to
   /// 0.5 deg/sqrt(h) have it, one sigma to either side. Test: UsualSize.IsThatOfTheGrade...

@@ -64,6 +64,7 @@ class DenseCovariance {
     };
     add(n_.drift_random_walk * driven(drift), kernel(forever_));
     add(n_.markov_drift * driven(drift), kernel(n_.markov_tau));
+    add(n_.caging_drift * driven(drift), same_chain());
     add(n_.angle_random_walk * driven([&](std::size_t half) {
           return Vec3(drift(half) / std::sqrt(p_.drives[half / 2].length));
         }),
@@ -116,6 +117,15 @@ class DenseCovariance {
     for (std::size_t a = 0; a < begin_.size(); ++a)
       for (std::size_t b = 0; b < begin_.size(); ++b)
         if (a / 2 == b / 2)
+          K(static_cast<Eigen::Index>(begin_[a]), static_cast<Eigen::Index>(begin_[b])) = 1.0;
+    return K;
+  }
+  /// A value for each chain.
+  MatX same_chain() const {
+    MatX K = MatX::Zero(times(), times());
+    for (std::size_t a = 0; a < begin_.size(); ++a)
+      for (std::size_t b = 0; b < begin_.size(); ++b)
+        if (caged_[a] == caged_[b])
           K(static_cast<Eigen::Index>(begin_[a]), static_cast<Eigen::Index>(begin_[b])) = 1.0;
     return K;
   }

@@ -31,12 +31,12 @@ struct NoiseEstimate {
 
 /// Variance components by restricted maximum likelihood (parameters and attitudes marginalised with
 /// their priors): white noise of accelerometers and gimbals always; angle random walk, drift random
-/// walk, Markov drift and correlated accelerometer noise (time constants first on a grid) are added
-/// one by one while twice the log likelihood grows by more than 2.7 (the 5 % point of a variance on
-/// its boundary). Logs of the sigmas are found by a quasi-Newton ascent. `with`: candidate columns
-/// that are in the mean (unit priors), so that a real effect is not taken for noise. Source:
-/// Patterson and Thompson 1971. most_added: components beside white noise
-/// and what is declared.
+/// walk, Markov drift, a drift of each caging and correlated accelerometer noise (time constants
+/// first on a grid) are added one by one while twice the log likelihood grows by more than 2.7 (the
+/// 5 % point of a variance on its boundary). Logs of the sigmas are found by a quasi-Newton ascent.
+/// `with`: candidate columns that are in the mean (unit priors), so that a real effect is not taken
+/// for noise. Source: Patterson and Thompson 1971. most_added: components beside white noise and
+/// what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {},
                              int most_added = NoiseLimits::most_components);

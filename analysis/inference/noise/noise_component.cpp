@@ -6,6 +6,7 @@ namespace drift::inference {
 
 RowCounts::RowCounts(const MeasuredRows& rows) {
   for (const RowTag& t : rows.tags) ++(t.accelerometer() ? accelerometer : gimbal);
+  for (const IntervalDrive& d : rows.drives) cagings += !d.rest && (d.begins || d.cage);
 }
 
 Usual usual_size(const NoiseComponent& c, const NoiseModel& declared) {
@@ -14,7 +15,7 @@ Usual usual_size(const NoiseComponent& c, const NoiseModel& declared) {
   if (N > angle_walk.size.high) {
     constexpr double per_sqrt_s = 1.0 / 60.0, least = NoisePrior::least_instability * per_sqrt_s,
                      most = NoisePrior::most_instability * per_sqrt_s;
-    if (&c == &markov_drift) return {least * N, most * N};
+    if (&c == &markov_drift || &c == &caging_drift) return {least * N, most * N};
     if (&c == &drift_walk) return {least * least * N, most * most * N};
   }
   return c.size;
@@ -26,6 +27,9 @@ std::vector<Addition> possible_additions(const NoiseModel& model, const RowCount
     if (!c->in(model)) all.push_back({c});
   if (!markov_drift.in(model))
     for (const double tau : {600.0, 2400.0}) all.push_back({&markov_drift, tau});
+  // Of two, the fixed drift is their mean, and their difference what any ramp makes of it.
+  constexpr std::size_t enough = 3;
+  if (!caging_drift.in(model) && rows.cagings >= enough) all.push_back({&caging_drift});
   // Gimbals tell it from what drives the platform.
   if (!acc_markov.in(model) && rows.accelerometer > 0 && rows.gimbal > 0)
     for (const double tau : {150.0, 900.0}) all.push_back({&acc_markov, tau});

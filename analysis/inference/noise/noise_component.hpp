@@ -24,7 +24,7 @@ struct NoiseComponent {
   double NoiseModel::*sigma;
   double NoiseModel::*tau;  ///< null if it has none
   Unit unit;
-  /// Sizes that instruments usually have (physics.md 4, effects 8, 9 and 11), SI; of correlated
+  /// Sizes that instruments usually have (physics.md 4, effects 8 to 11), SI; of correlated
   /// accelerometer noise in declared sigmas of a sample.
   Usual size;
   Usual time = {1.0, 1.0};  ///< of the time constant [s]
@@ -58,13 +58,20 @@ inline constexpr NoiseComponent markov_drift{
     unit::deg_per_h,
     {2e-3 * unit::deg_per_h.to_si, 1e-2 * unit::deg_per_h.to_si},
     {600.0, 3600.0}};
+/// Of each caging (shutdown to shutdown), physics.md 4, effect 10.
+inline constexpr NoiseComponent caging_drift{
+    "caging_drift",
+    &NoiseModel::caging_drift,
+    nullptr,
+    unit::deg_per_h,
+    {3e-3 * unit::deg_per_h.to_si, 3e-2 * unit::deg_per_h.to_si}};
 inline constexpr NoiseComponent acc_markov{
     "accelerometer_markov", &NoiseModel::acc_markov, &NoiseModel::acc_tau, unit::ug, {0.2, 1.2},
     {150.0, 900.0}};
 
 /// Every component beside white noise of the instruments.
 inline constexpr const NoiseComponent* beside_white[] = {&angle_walk, &drift_walk, &markov_drift,
-                                                         &acc_markov};
+                                                         &caging_drift, &acc_markov};
 
 /// Where the size of a component usually is, in units of `acc_sigma` for the accelerometers' [g].
 /// What is declared is so within a factor of two. Of gyros that are declared coarser than those of
@@ -76,9 +83,9 @@ inline double unit_of(const NoiseComponent& c, double acc_sigma) {
   return &c == &acc_markov ? acc_sigma : 1.0;
 }
 
-/// Rows of the instruments.
+/// Rows of the instruments; cagings of a platform, the first of each recording among them.
 struct RowCounts {
-  std::size_t accelerometer = 0, gimbal = 0;
+  std::size_t accelerometer = 0, gimbal = 0, cagings = 0;
   explicit RowCounts(const MeasuredRows& rows);
   std::size_t of(const NoiseComponent& white) const {
     return &white == &acc_white ? accelerometer : gimbal;

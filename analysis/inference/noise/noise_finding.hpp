@@ -8,7 +8,8 @@ namespace drift::inference {
 /// Noise that is not as declared.
 struct NoiseFinding {
   std::string component;  ///< gimbal_white, accelerometer_white, angle_random_walk,
-                          ///< drift_random_walk, markov_drift, accelerometer_markov, outliers
+                          ///< drift_random_walk, markov_drift, caging_drift,
+                          ///< accelerometer_markov, outliers
   double factor = 1.0;    ///< estimated over declared sigma (white); NaN where nothing was declared
   double factor_sigma = 0.0;
   double value = 0.0;  ///< 1 sigma in `unit`

@@ -27,6 +27,7 @@ struct NoiseModel {
   double drift_random_walk = 0.0;                ///< [rad/s/sqrt(s)]
   double markov_drift = 0.0;                     ///< stationary sigma of a gyro's drift [rad/s]
   double markov_tau = 1800.0;                    ///< [s]
+  double caging_drift = 0.0;  ///< of what each caging adds to a gyro's drift, anew [rad/s]
   double acc_markov = 0.0;    ///< stationary sigma of correlated accelerometer noise [g]
   double acc_tau = 300.0;     ///< [s]
   Vec3 gyros = Vec3::Ones();  ///< weight of each gyro's share in what drives the platform
@@ -34,7 +35,7 @@ struct NoiseModel {
 
   bool driven() const {
     return angle_random_walk > 0.0 || drift_random_walk > 0.0 || markov_drift > 0.0 ||
-           acc_markov > 0.0 || lone.sigma > 0.0;
+           caging_drift > 0.0 || acc_markov > 0.0 || lone.sigma > 0.0;
   }
   bool operator==(const NoiseModel&) const = default;
 };

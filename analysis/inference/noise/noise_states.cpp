@@ -31,6 +31,7 @@ NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive
     step.decay.segment<3>(others(s.markov)).setConstant(phi);
     step.variance.segment<3>(others(s.markov)).setConstant(1.0 - phi * phi);
   }
+  if (s.caging >= 0) step.drive.middleCols<3>(others(s.caging)) = part * n.caging_drift;
   if (s.acc >= 0) {
     const double phi = std::exp(-(dt + gap) / n.acc_tau);
     step.decay.segment<3>(others(s.acc)).setConstant(phi);
@@ -44,6 +45,13 @@ NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive
     if (n.lone.equation == Equation::rate)
       step.drive.col(others(s.lone)) = 0.5 * n.lone.sigma * d.per_rate.col(n.lone.axis);
   }
+  return step;
+}
+
+NoiseStep caged(const NoiseStates& s) {
+  NoiseStep step;
+  step.decay.segment<3>(s.caging - 3).setZero();
+  step.variance.segment<3>(s.caging - 3).setOnes();
   return step;
 }
 

@@ -9,19 +9,20 @@ namespace drift::inference {
 
 /// Where each kind of state stands; -1: not there.
 struct NoiseStates {
-  int white = -1, walk = -1, markov = -1, acc = -1, lone = -1, count = 3;
+  int white = -1, walk = -1, markov = -1, caging = -1, acc = -1, lone = -1, count = 3;
 
   explicit NoiseStates(const NoiseModel& n) {
     if (n.angle_random_walk > 0.0) white = std::exchange(count, count + 3);
     if (n.drift_random_walk > 0.0) walk = std::exchange(count, count + 3);
     if (n.markov_drift > 0.0) markov = std::exchange(count, count + 3);
+    if (n.caging_drift > 0.0) caging = std::exchange(count, count + 3);
     if (n.acc_markov > 0.0) acc = std::exchange(count, count + 3);
     if (n.lone.sigma > 0.0) lone = std::exchange(count, count + 1);
   }
 };
 
-/// Over the states: at most the attitude, four kinds by three and a lone one; never on the heap.
-inline constexpr int most_states = 16;
+/// Over the states: at most the attitude, five kinds by three and a lone one; never on the heap.
+inline constexpr int most_states = 19;
 using OverStates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_states, 1>;
 using OverPairs =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_states, most_states>;
@@ -44,6 +45,9 @@ struct NoiseStep {
 NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
                   bool first_half);
 
+/// A caging: what it adds to the drift is drawn anew.
+NoiseStep caged(const NoiseStates& s);
+
 /// Before anything is measured in a recording: attitude at its prior, a random walk at zero, the
 /// others stationary.
 OverPairs initial_covariance(const NoiseStates& s, const NoiseModel& n);
@@ -63,6 +67,7 @@ void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Begi
   for (std::size_t i = 0; i < p.drives.size(); ++i) {
     const IntervalDrive& d = p.drives[i];
     if (d.begins || d.cage) begin(d.begins ? Anew::recording : Anew::chain);
+    if (s.caging >= 0 && d.cage && !d.begins) move(caged(s));
     // Half of the interval's noise before its accelerometer rows, half before its gimbal rows.
     for (const bool accelerometer : {true, false}) {
       if (n.driven()) move(step_of(s, n, d, accelerometer));

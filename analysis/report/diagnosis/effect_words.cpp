@@ -132,6 +132,7 @@ std::string noise_in_words(const std::string& component) {
       {"angle_random_walk", "angle random walk of the gyros"},
       {"drift_random_walk", "random walk of the gyro drift"},
       {"markov_drift", "slowly wandering gyro drift"},
+      {"caging_drift", "a gyro drift that differs from caging to caging"},
       {"accelerometer_markov", "slowly wandering accelerometer error"},
       {"outliers", "isolated wrong samples"}};
   for (const auto& [key, words] : known)

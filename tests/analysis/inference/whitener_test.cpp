@@ -68,6 +68,7 @@ TEST(Whitener, EqualsDenseCholeskyForEveryKindOfNoiseAtOnce) {
   noise.drift_random_walk = 0.01 * deg_per_h / 60.0;
   noise.markov_drift = 0.02 * deg_per_h;
   noise.markov_tau = 1200.0;
+  noise.caging_drift = 0.015 * deg_per_h;
   noise.acc_markov = 4e-6;
   noise.acc_tau = 200.0;
   expect_equals_cholesky(noise);
