@@ -98,7 +98,10 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
     (less_likely ? d.other_latitude : d.site_doubt) = site.doubt;
     d.there = std::move(site.there);
   }
-  if (d.wrong_study()) d = of_another_study(std::move(d));
+  if (d.wrong_study())
+    d = of_another_study(std::move(d));
+  else if (const auto times = times_instead(test.study, test.recordings, d))
+    d.remarks.emplace_back(*times);
   d.absent_positions = test.absent_positions;
   if (!d.of_case) d.absent = identification::absent_channels(test.recordings, test.study.readout);
   d = advised(std::move(d), test, options);

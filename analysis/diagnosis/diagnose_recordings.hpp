@@ -27,10 +27,10 @@ struct RecordingsOptions {
 /// and the tests.
 ///
 /// They are looked over (prepare()), the nominal model is compared with them (diagnose()), the
-/// headings and the latitude are doubted where they may be behind it (heading_doubt(),
-/// site_doubt()), and positions are proposed that would tell more (advise()). A pure function of
-/// its arguments but for `seconds`. InputError as those throw; advice that cannot be made is a
-/// remark and never costs the diagnosis.
+/// headings, the latitude and the times are doubted where they may be behind it (heading_doubt(),
+/// site_doubt(), times_instead()), and positions are proposed that would tell more (advise()). A
+/// pure function of its arguments but for `seconds`. InputError as those throw; advice that cannot
+/// be made is a remark and never costs the diagnosis.
 Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                               const RecordingsOptions& options = {});
 

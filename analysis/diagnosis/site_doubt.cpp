@@ -9,6 +9,7 @@
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/layout.hpp"
+#include "core/stats/chi_square_band.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -17,11 +18,11 @@ using inference::SiteLimits;
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
 
-/// Whether the fit at another latitude leaves no more than that with the causes does, but for what
-/// so many parameters take by chance.
-bool leaves_as_little(const identification::LatitudeDoubt& doubt, const Diagnosis& d) {
+/// Whether a fit of the nominal model, at another latitude or with other times, leaves no more than
+/// that with the causes does, but for what so many parameters take by chance.
+bool leaves_as_little(double chi2_per_dof, const Diagnosis& d) {
   const auto parameters = static_cast<double>((d.patched.active & ~d.nominal.active).count());
-  return (doubt.chi2_per_dof_after - d.fit.chi2_per_dof_after) * static_cast<double>(d.fit.dof) <
+  return (chi2_per_dof - d.fit.chi2_per_dof_after) * static_cast<double>(d.fit.dof) <
          parameters + inference::FitLimits::misfit * std::sqrt(2.0 * parameters);
 }
 
@@ -113,7 +114,7 @@ std::optional<SiteFinding> with_effects(const mc::Study& study,
 identification::LatitudeDoubt against_causes(identification::LatitudeDoubt doubt,
                                              const Diagnosis& d) {
   if (d.causes.empty()) return doubt;
-  doubt.as_little_left = leaves_as_little(doubt, d);
+  doubt.as_little_left = leaves_as_little(doubt.chi2_per_dof_after, d);
   if (!doubt.alone()) return doubt;
   doubt.odds = std::exp(log_odds(doubt, d));
   doubt.less_likely = doubt.odds <= 1.0 && std::ranges::none_of(d.causes, has_no_usual_size);
@@ -158,6 +159,24 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
   alone->clock = beside->clock;  // asked at the latitude of the study, not at this one
   alone->or_clock = beside->or_clock;
   return {alone, nullptr};
+}
+
+std::optional<remark::TimesInstead> times_instead(const mc::Study& study,
+                                                  const std::vector<Recording>& recordings,
+                                                  const Diagnosis& d) {
+  if (d.verdict == Verdict::consistent || d.of_case) return std::nullopt;
+  if (d.other_latitude && d.other_latitude->clock) return std::nullopt;
+  const auto dof = static_cast<double>(d.fit.dof);
+  const bool found = !d.causes.empty();
+  const double gain = dof * (d.fit.chi2_per_dof_before - (found ? d.fit.chi2_per_dof_after : 1.0));
+  if (!(gain > 0.0)) return std::nullopt;
+  const auto clock = identification::clock_of_misfit(study, recordings, d.nominal,
+                                                     inference::SiteLimits::promise * gain);
+  if (!clock || !clock->evident()) return std::nullopt;
+  const bool as_well = found ? leaves_as_little(clock->chi2_per_dof_after, d)
+                             : stats::misfit_chance(clock->chi2_per_dof_after, dof) >=
+                                   inference::SearchLimits::alpha;
+  return as_well ? std::optional(remark::TimesInstead{*clock}) : std::nullopt;
 }
 
 }  // namespace drift::diagnosis

@@ -44,4 +44,18 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
 identification::LatitudeDoubt against_causes(identification::LatitudeDoubt doubt,
                                              const Diagnosis& diagnosis);
 
+/// Asks whether the clock of the recording may stand in place of the causes that were found: where
+/// nothing is commanded, times that are all too long or too short by one factor leave the trace of
+/// another Earth's rate, and so does an error of the latitude, or sensitivities to the field or to
+/// base motion that are alike on all axes. As of another latitude the evidence for it must be
+/// stronger than such recordings are rare (ClockDoubt::evident()), and it must leave as little as
+/// the causes do; where none was found, what a right model leaves with a
+/// chance of SearchLimits::alpha or more. The clock is followed only where it promises a part
+/// (SiteLimits::promise) of what the causes gain, or of the whole misfit where there are none.
+/// Empty otherwise, of a test that lacks nothing, and where such times are told with another
+/// latitude. recordings: as they were diagnosed.
+std::optional<remark::TimesInstead> times_instead(const mc::Study& study,
+                                                  const std::vector<Recording>& recordings,
+                                                  const Diagnosis& diagnosis);
+
 }  // namespace drift::diagnosis

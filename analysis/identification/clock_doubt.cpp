@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/identification/common_scale.hpp"
 #include "analysis/inference/thresholds.hpp"
@@ -34,6 +35,24 @@ std::vector<Recording> with_times(std::vector<Recording> recordings, double fact
   return recordings;
 }
 
+/// Where the parabola through the costs at -h, 0 and h has its foot, how wide it is (1 sigma), and
+/// by how much it falls from 0 to there.
+struct Foot {
+  double at = 0.0, sigma = 0.0, fall = 0.0;
+};
+
+/// Nothing where there is no valley.
+std::optional<Foot> foot_of(const std::vector<double>& costs, double h) {
+  const double bend = costs[0] + costs[2] - 2.0 * costs[1], slope = costs[0] - costs[2];
+  if (!(bend > 0.0)) return std::nullopt;
+  return Foot{0.5 * h * slope / bend, h * std::sqrt(2.0 / bend), slope * slope / (8.0 * bend)};
+}
+
+/// A first step as wide as a part of the way: what else is missing bends the valley.
+double first_step(double sigma, double way) {
+  return std::max(sigma, 0.02 * std::abs(way));
+}
+
 /// The study's own latitude with other times.
 struct Retimed {
   ClockDoubt doubt;
@@ -54,10 +73,10 @@ std::optional<Retimed> retimed_valley(const mc::Study& study,
     const auto costs = mc::run_campaign(3, [&](std::size_t k) {
       return at(out.doubt.factor + (static_cast<double>(k) - 1.0) * h).statistic;
     });
-    const double bend = costs[0] + costs[2] - 2.0 * costs[1];
-    if (!(bend > 0.0)) return std::nullopt;
-    out.doubt.factor += 0.5 * h * (costs[0] - costs[2]) / bend;
-    out.doubt.sigma = h * std::sqrt(2.0 / bend);
+    const auto foot = foot_of(costs, h);
+    if (!foot) return std::nullopt;
+    out.doubt.factor += foot->at;
+    out.doubt.sigma = foot->sigma;
     out.estimate = at(out.doubt.factor);
   }
   out.doubt.chi2_per_dof_after = out.estimate.statistic_per_dof();
@@ -107,14 +126,47 @@ std::optional<ClockDoubt> clock_instead(const mc::Study& study,
   if (!(slower > 0.5 && slower < 2.0) || !(sigma > 0.0)) return std::nullopt;
   const EstimateResult there =
       fitted_at(other_latitude, study, recordings, filter, Result::estimates);
-  // What else is missing bends the latitude: the first step is as wide as a part of the way.
-  const double step = std::max(sigma, 0.02 * std::abs(slower - 1.0));
-  const auto best = retimed(study, recordings, filter, slower, step);
+  const auto best = retimed(study, recordings, filter, slower, first_step(sigma, slower - 1.0));
   if (!best) return std::nullopt;
   const double worse =
       (best->estimate.statistic - there.statistic) / std::max(1.0, there.statistic_per_dof());
   if (worse > -2.0 * std::log(inference::SearchLimits::alpha)) return std::nullopt;
   return best->doubt;
+}
+
+std::optional<ClockDoubt> clock_of_misfit(const mc::Study& study,
+                                          const std::vector<Recording>& recordings,
+                                          const FilterSpec& filter, double promised) {
+  constexpr double h = 1e-4;  // a clock is seldom off by more (9 s a day): there a fit is linear
+  std::vector<double> costs;
+  try {
+    costs = mc::run_campaign(3, [&](std::size_t k) {
+      const double factor = 1.0 + (static_cast<double>(k) - 1.0) * h;
+      return fitted(study, with_times(recordings, factor), filter, Result::estimates)
+          .estimate.statistic;
+    });
+  } catch (const InputError&) {
+    return std::nullopt;  // as of retimed()
+  }
+  const auto foot = foot_of(costs, h);
+  if (!foot || foot->fall < promised) return std::nullopt;
+  auto best = retimed(study, recordings, filter, 1.0 + foot->at, first_step(foot->sigma, foot->at));
+  if (!best) return std::nullopt;
+  const double gain =
+      (costs[1] - best->estimate.statistic) / std::max(1.0, best->estimate.statistic_per_dof());
+  best->doubt.weigh(gain);
+  return best->doubt;
+}
+
+void ClockDoubt::weigh(double chi2_above) {
+  const double every_factor = 2.0 * std::numbers::ln2;  // from log(1/2) to log(2)
+  if (sigma > 0.0 && factor > 0.0)
+    log_evidence = 0.5 * chi2_above + 0.5 * std::log(2.0 * std::numbers::pi) +
+                   std::log(sigma / factor) - std::log(every_factor);
+}
+
+bool ClockDoubt::evident() const {
+  return log_evidence + std::log(inference::SiteLimits::another) > 0.0;
 }
 
 }  // namespace drift::identification

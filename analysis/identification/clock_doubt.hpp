@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,17 @@ namespace drift::identification {
 struct ClockDoubt {
   double factor = 1.0, sigma = 0.0;                            ///< true times over recorded ones
   double chi2_per_dof_before = 0.0, chi2_per_dof_after = 0.0;  ///< of the fit at [site]
+  /// Log evidence for it against the recorded times, where every factor from a half to twice is as
+  /// likely as another (by its logarithm) and noise is as the better fit has it; of
+  /// clock_of_misfit().
+  double log_evidence = -std::numeric_limits<double>::infinity();
+
+  /// Takes the evidence where the recorded times' chi-square is so much larger: by Laplace's
+  /// method.
+  void weigh(double chi2_above);
+  /// The evidence is stronger than recordings with such times are rare, which are taken to be as
+  /// many as those of another latitude (SiteLimits::another).
+  bool evident() const;
 };
 
 /// Asks whether the clock is behind what looks like another latitude. With times too long by a part
@@ -33,5 +45,13 @@ std::optional<ClockDoubt> clock_instead(const mc::Study& study,
                                         const std::vector<Recording>& recordings,
                                         const FilterSpec& filter, double other_latitude,
                                         double sigma);
+
+/// The clock that leaves least of the filter's misfit, whatever else may be behind that. Three
+/// fits, at the recorded times and a ten-thousandth to either side; the valley is followed only
+/// where their parabola promises to take `promised` off chi-square. Empty otherwise, and where the
+/// cost has no valley.
+std::optional<ClockDoubt> clock_of_misfit(const mc::Study& study,
+                                          const std::vector<Recording>& recordings,
+                                          const FilterSpec& filter, double promised);
 
 }  // namespace drift::identification

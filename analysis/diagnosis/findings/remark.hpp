@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/identification/clock_doubt.hpp"
 #include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/estimate_result.hpp"
@@ -108,6 +109,11 @@ struct OtherEquation {
 struct MemoryOff {
   std::vector<MemoryLeftOut> terms;
 };
+/// Times that are all too long or too short by one factor explain the test as well as what was
+/// found, without any of that in the model; or where nothing was found, they explain it.
+struct TimesInstead {
+  identification::ClockDoubt clock;
+};
 /// The magnetic field is that of a dipole: none was recorded or declared.
 struct FieldAssumed {
   Vec3 field_l = Vec3::Zero();  ///< [T]
@@ -135,12 +141,14 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft, remark::LambdaNotSettled,
-    remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
-    remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
-    remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-    remark::OtherEquation, remark::MemoryOff, remark::FieldAssumed, remark::NoiseOrEffect,
-    remark::NoAdvice, remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark =
+    std::variant<remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft,
+                 remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted,
+                 remark::OrNoise, remark::SamplesLeftOut, remark::FreeInputExplains,
+                 remark::PeriodExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
+                 remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
+                 remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
+                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -44,10 +44,12 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (!d.advice.empty()) return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)
-    return declares_noise(d) ? "Next: identify with patched.toml, the study with the cause in its "
-                               "model and the noise that was found."
-                             : "Next: identify with patched.toml, the study with the cause in its "
-                               "model.";
+    return fmt::format(
+        "Next: {}identify with patched.toml, the study with the cause in its model{}.",
+        remark_in<remark::TimesInstead>(d) != nullptr
+            ? "look up the sample interval of the log; where its times are right, "
+            : "",
+        declares_noise(d) ? " and the noise that was found" : "");
   if (const auto other = facts(d.nominal.coupling).other;
       other && std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
     return fmt::format(

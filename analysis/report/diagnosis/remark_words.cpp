@@ -10,6 +10,7 @@
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -154,6 +155,8 @@ struct Words {
   }
 
   std::string operator()(const MemoryOff& r) const { return "The " + memory_text(r.terms); }
+
+  std::string operator()(const TimesInstead& r) const { return times_instead_text(r.clock); }
 
   std::string operator()(const FieldAssumed& r) const { return field_assumed_text(r.field_l); }
 

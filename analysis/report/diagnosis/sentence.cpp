@@ -17,6 +17,7 @@
 #include "analysis/report/diagnosis/too_large.hpp"
 #include "analysis/report/diagnosis/verdict_openings.hpp"
 #include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -216,16 +217,23 @@ std::string rival_text(const Diagnosis& d) {
                      together(d, alternatives_of(d).front()));
 }
 
-/// A latitude that explains what was found, and is less likely.
-std::string other_latitude_text(const identification::LatitudeDoubt& other) {
+/// A latitude that explains what was found, and is less likely; and times that do.
+std::string other_study_text(const Diagnosis& d) {
+  const auto* times = remark_in<remark::TimesInstead>(d);
+  if (!d.other_latitude) return times == nullptr ? "" : " " + times_in_brief(times->clock);
+  const identification::LatitudeDoubt& other = *d.other_latitude;
   if (other.clock)
     return fmt::format(
         " Times that are {:.6g} times as long would explain it, too: look at the clock of the log.",
         other.clock->factor);
-  return fmt::format(
-      " Another latitude would explain it, too ({} instead of {:.3f} deg): check that of "
-      "[site] on a map.",
-      latitude_text(other), other.declared / unit::deg.to_si);
+  const std::string latitude =
+      fmt::format(" Another latitude would explain it, too ({} instead of {:.3f} deg)",
+                  latitude_text(other), other.declared / unit::deg.to_si);
+  return times == nullptr ? latitude + ": check that of [site] on a map."
+                          : fmt::format(
+                                "{}, and so would times that are all {} times as long: check the "
+                                "latitude of [site] on a map and the clock of the log.",
+                                latitude, with_sigma(times->clock.factor, times->clock.sigma));
 }
 
 }  // namespace
@@ -267,7 +275,7 @@ std::string sentence(const Diagnosis& d) {
   if (d.verdict == Verdict::consistent)
     if (const auto* other = remark_in<remark::OtherEquation>(d); other && other->open())
       text += fmt::format(" {}.", cannot_tell_equations(*other, positions_at_hand(d)));
-  if (d.other_latitude) text += other_latitude_text(*d.other_latitude);
+  text += other_study_text(d);
   text += outside_text(d);
   text += too_large_text(d);
   text += unexamined_twins_text(d.not_examined);

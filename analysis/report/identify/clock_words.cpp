@@ -26,14 +26,35 @@ std::string clock_next(const identification::ClockDoubt& clock, std::string_view
       clock.factor, command);
 }
 
+std::string times_instead_text(const identification::ClockDoubt& clock) {
+  return fmt::format(
+      "Times that are all too {} would leave the same: with every time {} times as long the "
+      "nominal model fits by itself (chi-square per degree of freedom {} instead of {}). Check the "
+      "clock and the sample interval of the log.",
+      clock.factor > 1.0 ? "short" : "long", with_sigma(clock.factor, clock.sigma),
+      number_text(clock.chi2_per_dof_after), number_text(clock.chi2_per_dof_before));
+}
+
+std::string times_in_brief(const identification::ClockDoubt& clock) {
+  return fmt::format(
+      "Times that are all too {} would leave the same (every time {} times as long): check the "
+      "clock of the log.",
+      clock.factor > 1.0 ? "short" : "long", with_sigma(clock.factor, clock.sigma));
+}
+
+Json times_json(const std::optional<identification::ClockDoubt>& clock) {
+  if (!clock) return nullptr;
+  return {{"factor", clock->factor},
+          {"sigma", clock->sigma},
+          {"chi2_per_dof_before", clock->chi2_per_dof_before},
+          {"chi2_per_dof_after", clock->chi2_per_dof_after}};
+}
+
 Json clock_json(const std::optional<identification::LatitudeDoubt>& doubt) {
   if (!doubt || !doubt->clock) return nullptr;
-  const identification::ClockDoubt& clock = *doubt->clock;
-  return {{"factor", clock.factor},
-          {"sigma", clock.sigma},
-          {"chi2_per_dof_before", clock.chi2_per_dof_before},
-          {"chi2_per_dof_after", clock.chi2_per_dof_after},
-          {"or_latitude_deg", doubt->latitude / unit::deg.to_si}};
+  Json json = times_json(doubt->clock);
+  json["or_latitude_deg"] = doubt->latitude / unit::deg.to_si;
+  return json;
 }
 
 }  // namespace drift::report

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,13 @@ namespace drift::report {
 std::string clock_text(const identification::LatitudeDoubt& doubt);
 /// "Next: multiply the times ..."; command: that is to be given again.
 std::string clock_next(const identification::ClockDoubt& clock, std::string_view command);
+/// "Times that are all too short would leave the same: ...", of a nominal model that needs nothing
+/// else then.
+std::string times_instead_text(const identification::ClockDoubt& clock);
+/// The same without the fits, where there is no room for more.
+std::string times_in_brief(const identification::ClockDoubt& clock);
+/// Factor and fits; null of none.
+Json times_json(const std::optional<identification::ClockDoubt>& clock);
 /// Of a doubt that has a clock; null of any other.
 Json clock_json(const std::optional<identification::LatitudeDoubt>& doubt);
 

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/diagnosis/site_doubt.hpp"
 #include "analysis/identification/identify.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
+#include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
 #include "tests/support/six_positions.hpp"
@@ -88,6 +90,106 @@ TEST(ClockDoubt, WhereNothingIsCommandedItIsTheLatitudeOrTheClock) {
   EXPECT_EQ(brief.verdict.find("Verdict wrong latitude or times: "), 0u) << brief.verdict;
   EXPECT_NE(brief.next.find("the sample interval of the log"), std::string::npos) << brief.next;
   EXPECT_EQ(brief.next.find("--set site.latitude"), std::string::npos) << brief.next;
+}
+
+/// Twelve free positions of 40 minutes, logged with times `factor` times as long.
+struct Free : Scene {
+  explicit Free(double factor) : Scene(1.0) {
+    PlanDefaults defaults;
+    defaults.dwell = 2400.0;
+    study.plan = preset_plan("twelve", defaults).value();
+    recording = test::simulated(study);
+    for (double& t : test::channel(recording, "time")) t *= factor;
+  }
+  Diagnosis diagnosed() const {
+    RecordingsOptions options;
+    options.diagnose.starts = 1;
+    options.diagnose.whiteness_draws = 0;
+    options.advising = Advising::left_out;
+    return diagnose_recordings(study, {recording}, options);
+  }
+};
+
+TEST(ClockDoubt, ASmallErrorOfTheClockIsToldWithTheCauseThatIsNamedForIt) {
+  // 250 ppm are 50 arcsec of latitude here, 2.5 times what is usual: no survey is doubted for it.
+  const Free s(1.00025);
+  const Diagnosis d = s.diagnosed();
+  ASSERT_FALSE(d.site_doubt || d.other_latitude) << report::sentence(d);
+  ASSERT_FALSE(d.causes.empty()) << report::sentence(d);
+  const auto* times = remark_in<remark::TimesInstead>(d);
+  ASSERT_NE(times, nullptr) << report::sentence(d);
+  EXPECT_LT(times->clock.sigma, 5e-5);
+  EXPECT_NEAR(times->clock.factor, 1.0 / 1.00025, 4.0 * times->clock.sigma);
+  const report::InBrief brief = report::diagnosis_in_brief(d);
+  EXPECT_NE(brief.verdict.find("Times that are all too long would leave the same"),
+            std::string::npos)
+      << brief.verdict;
+  const std::string shown = report::brief_text(brief, 80);
+  EXPECT_NE(shown.find("Times that are all too"), std::string::npos) << shown;
+  if (d.verdict == Verdict::named) {
+    EXPECT_NE(brief.next.find("look up the sample interval of the log"), std::string::npos)
+        << brief.next;
+  }
+  const auto json = nlohmann::json::parse(report::to_json(d));
+  EXPECT_NEAR(json["or_times"]["factor"].get<double>(), times->clock.factor, 1e-12);
+  EXPECT_NE(json["remarks"].dump().find("the nominal model fits by itself"), std::string::npos);
+}
+
+TEST(ClockDoubt, NothingIsSaidOfTheClockWhereNothingIsMissing) {
+  const Diagnosis d = Free(1.0).diagnosed();
+  ASSERT_EQ(d.verdict, Verdict::consistent) << report::sentence(d);
+  EXPECT_EQ(remark_in<remark::TimesInstead>(d), nullptr);
+  EXPECT_TRUE(nlohmann::json::parse(report::to_json(d))["or_times"].is_null());
+}
+
+TEST(ClockDoubt, ACauseThatLeavesLessThanTheClockStandsAlone) {
+  const Free s(1.00025);
+  Diagnosis d;
+  d.nominal = d.patched = s.study.filters.front();
+  d.verdict = Verdict::named;
+  d.causes.emplace_back().term = "latitude_error";
+  d.patched.active |= test::only({"d_lat"});
+  d.fit.dof = 2880;
+  const auto clock =
+      identification::clock_of_misfit(s.study, {s.recording}, d.nominal, 0.0).value();
+  EXPECT_TRUE(clock.evident());
+  d.fit.chi2_per_dof_before = clock.chi2_per_dof_before;
+  // One parameter takes up 1 + 5 sqrt(2) of chi-square by chance, with 6e-7 (FitLimits::misfit).
+  for (const auto& [less, told] : {std::pair{0.0, true}, {7.0, true}, {9.0, false}}) {
+    d.fit.chi2_per_dof_after = clock.chi2_per_dof_after - less / 2880.0;
+    EXPECT_EQ(times_instead(s.study, {s.recording}, d).has_value(), told) << less;
+  }
+  // What the clock promises is less than half of what the cause gains.
+  d.fit.chi2_per_dof_before += 10.0;
+  EXPECT_FALSE(times_instead(s.study, {s.recording}, d));
+  d.fit.chi2_per_dof_before -= 10.0;
+  d.fit.chi2_per_dof_after = clock.chi2_per_dof_after;
+  d.verdict = Verdict::consistent;
+  EXPECT_FALSE(times_instead(s.study, {s.recording}, d));
+}
+
+TEST(ClockDoubt, IsEvidentWhereItsEvidenceExceedsTheRarityOfOtherTimes) {
+  // 1000 to 1 against, and of every factor from a half to twice one is looked at: a gain of
+  // 2 log(1000 x 2 log 2 / (sqrt(2 pi) 1e-5)) = 35.7.
+  identification::ClockDoubt clock{1.0, 1e-5};
+  clock.weigh(35.5);
+  EXPECT_FALSE(clock.evident());
+  clock.weigh(35.8);
+  EXPECT_TRUE(clock.evident());
+}
+
+TEST(ClockDoubt, IsToldInOneSentenceWithAnotherLatitude) {
+  Diagnosis d;
+  d.verdict = Verdict::named;
+  d.causes.emplace_back().term = "magnetic_drift";
+  d.other_latitude.emplace();
+  d.remarks = {remark::TimesInstead{{1.0004, 1e-5, 1.46, 1.04}}};
+  EXPECT_NE(report::sentence(d).find("and so would times that are all 1.000400±0.000010 times as "
+                                     "long: check the latitude of [site] on a map and the clock"),
+            std::string::npos)
+      << report::sentence(d);
+  EXPECT_EQ(report::in_words(d.remarks.front()).find("Times that are all too short"), 0u)
+      << report::in_words(d.remarks.front());
 }
 
 TEST(ClockDoubt, IdentifySaysItToo) {
