@@ -182,9 +182,21 @@ std::optional<remark::BeyondPrior> priors_at_fault(const FilterSpec& nominal,
   return out;
 }
 
-std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit, const Timeline& timeline) {
-  remark::MemoryOff out{identification::memory_doubt(fit.filter, fit.fit, timeline)};
-  return out.terms.empty() ? std::nullopt : std::optional(std::move(out));
+std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit,
+                                            std::span<const search::Refit> alternatives,
+                                            const Timeline& timeline) {
+  remark::MemoryOff out{identification::memory_doubt(fit.filter, fit.fit, timeline),
+                        identification::memory_gaps(fit.filter, fit.fit, timeline)};
+  const auto told = [&](const identification::MemoryGaps& gaps) {
+    return std::ranges::any_of(out.gaps, [&](const identification::MemoryGaps& other) {
+      return other.widest.term == gaps.widest.term;
+    });
+  };
+  for (const search::Refit& r : alternatives)
+    for (const auto& gaps : identification::memory_gaps(r.after.filter, r.after.fit, timeline))
+      if (!told(gaps)) out.gaps.push_back(gaps);
+  const bool any = !out.terms.empty() || !out.gaps.empty();
+  return any ? std::optional(std::move(out)) : std::nullopt;
 }
 
 std::optional<remark::OtherEquation> equation_against_other(const Diagnosis& d) {

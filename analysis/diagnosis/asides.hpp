@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/search/search.hpp"
@@ -32,8 +33,12 @@ std::optional<remark::BeyondPrior> priors_at_fault(const FilterSpec& nominal,
                                                    const MeasuredTest& test, const BatchResult& fit,
                                                    const search::SearchOptions& options);
 
-/// Terms of a fitted model, a cause among them, that remember another path than that of the fit.
-std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit, const Timeline& timeline);
+/// Terms of a fitted model, a cause among them, that remember another path than that of the fit, or
+/// a gap in which nobody knows when the platform was turned; alternatives: whose terms may
+/// remember such a gap, too.
+std::optional<remark::MemoryOff> memory_off(const search::Fitted& fit,
+                                            std::span<const search::Refit> alternatives,
+                                            const Timeline& timeline);
 
 /// Whether the drift equation is (5) or (6) is part of the nominal model: where the test does not
 /// tell, its agreement says nothing of it (physics.md 1.7). Empty where a cause is the equation.

@@ -231,7 +231,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
   append(d.remarks, std::move(beyond));
-  append(d.remarks, memory_off(in_the_model, test.timeline));
+  const std::span<const search::Refit> sets(found.sets);
+  append(d.remarks, memory_off(in_the_model, alarm ? sets : sets.first(0), test.timeline));
   append(d.remarks, equation_against_other(d));
   return d;
 }

@@ -24,6 +24,7 @@ void fit_by_batch(FilterRun& run, const FilterSpec& filter, const MeasuredTest& 
                   const Theta& start) {
   run.batch = fit_batch(filter, test, start);
   run.memory_doubt = memory_doubt(filter, run.batch, test.timeline);
+  run.memory_gaps = memory_gaps(filter, run.batch, test.timeline);
 }
 
 }  // namespace

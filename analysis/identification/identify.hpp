@@ -26,6 +26,7 @@ struct FilterRun {
   EkfHistory history;
   BatchResult batch;
   std::vector<MemoryLeftOut> memory_doubt;  ///< along the path of the batch fit
+  std::vector<MemoryGaps> memory_gaps;      ///< with its parameters
 };
 
 /// How the starts of one filter agree on one parameter.

@@ -32,4 +32,19 @@ std::vector<MemoryLeftOut> memory_doubt(const mc::Study& study, std::uint64_t ru
   return doubtful(memory_left_out(timeline, model, draw.theta, draw.psi0_l));
 }
 
+std::vector<MemoryGaps> memory_gaps(const FilterSpec& filter, const BatchResult& fit,
+                                    const Timeline& timeline) {
+  constexpr double alike = 1.0 - 1e-6;  // of gaps that are alike the first is told
+  std::vector<MemoryGaps> all;
+  for (const MemoryOverGap& gap :
+       memory_over_gaps(timeline, filter.model(), theta_of(filter, fit))) {
+    if (1.0 - gap.left <= inference::RemarkLimits::memory) continue;
+    if (all.empty() || all.back().widest.term != gap.term) all.push_back({gap, 0});
+    MemoryGaps& of_term = all.back();
+    ++of_term.count;
+    if (gap.left < alike * of_term.widest.left) of_term.widest = gap;
+  }
+  return all;
+}
+
 }  // namespace drift::identification

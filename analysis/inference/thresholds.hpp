@@ -238,8 +238,8 @@ struct RemarkLimits {
   static constexpr double nearest = 0.05;
   /// [2 log L] of an effect that noise may stand for, 5 sigma; per further amplitude.
   static constexpr double or_effect = 25.0, or_effect_per_amplitude = 3.0;
-  /// Part of a memory (MemoryLeftOut) that is wrong: an amplitude that multiplies it is off by as
-  /// much of itself, at most (Cauchy and Schwarz). Test: MemoryDoubt.*
+  /// Part of a memory (MemoryLeftOut, MemoryOverGap) that is wrong: an amplitude that multiplies it
+  /// is off by as much of itself, at most (Cauchy and Schwarz). Test: MemoryDoubt.*, MemoryGaps.*
   static constexpr double memory = 0.1;
   static constexpr double shape = 0.3;  ///< |correlation| below which a shape says nothing. Tuned
 };

@@ -123,7 +123,8 @@ void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* p
     change_memory(Change::start, terms_, between(here, here, 0.0, interval.omega_cmd_p), theta, m);
   } else if (interval.cage) {
     // On the way to a caged position nobody knows more than that the gimbals turned; the heat of
-    // the new attitude acts for as long as it took.
+    // the new attitude is taken to act for as long as it took. Where it hangs on that
+    // (memory_over_gaps()) it is said.
     const PathPoint before{here.f_p, gimbal_, here.gimbal_rate};
     change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()),
                   theta, m);

@@ -9,10 +9,10 @@
 
 #include "analysis/identification/clock_doubt.hpp"
 #include "analysis/identification/common_scale.hpp"
+#include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
-#include "core/sim/memory_left_out.hpp"
 
 namespace drift::diagnosis {
 
@@ -105,9 +105,11 @@ struct OtherEquation {
   bool of_case = false;       ///< of gyros on a case
   bool open() const;          ///< the test does not tell the two apart
 };
-/// Terms of the model, a cause among them, whose memory follows another path than the platform.
+/// Terms of the model, a cause among them, whose memory follows another path than the platform; and
+/// those, of alternatives too, whose memory hangs on when the platform was turned in a gap.
 struct MemoryOff {
   std::vector<MemoryLeftOut> terms;
+  std::vector<identification::MemoryGaps> gaps = {};
 };
 /// Times that are all too long or too short by one factor explain the test as well as what was
 /// found, without any of that in the model; or where nothing was found, they explain it.

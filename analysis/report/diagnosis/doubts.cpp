@@ -113,7 +113,7 @@ std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)
     all.emplace_back("Gravity", common_scale_text(*beyond->scales));
   if (const auto* off = remark_in<remark::MemoryOff>(d))
-    all.emplace_back("Memory", "The " + memory_text(off->terms) + ".");
+    all.emplace_back("Memory", memory_sentences(off->terms, off->gaps));
   const auto* samples = remark_in<remark::SamplesLeftOut>(d);
   if (labels_are_late(d))
     all.emplace_back("Labels", late_labels_text(samples->removed));

@@ -28,9 +28,9 @@ std::string heading_text(const identification::HeadingDoubt& doubt);
 bool labels_are_late(const diagnosis::Diagnosis& diagnosis);
 
 /// What a reader must hear with the verdict, whatever it is: parameters of the model far from their
-/// priors, memory of another path than the platform's, isolated samples that were left out, and a
-/// magnetic field that was assumed where a cause or such a parameter hangs on it. Sentences with
-/// the word that heads each.
+/// priors, memory of another path than the platform's or of a gap, isolated samples that were left
+/// out, and a magnetic field that was assumed where a cause or such a parameter hangs on it.
+/// Sentences with the word that heads each.
 std::vector<std::pair<std::string, std::string>> doubts_of(const diagnosis::Diagnosis& diagnosis);
 
 /// `beyond_prior` of diagnosis.json: one object for each such parameter.

@@ -154,7 +154,7 @@ struct Words {
                        with, as_well_text(r.gain), r.of_case ? on_a_case : on_a_platform);
   }
 
-  std::string operator()(const MemoryOff& r) const { return "The " + memory_text(r.terms); }
+  std::string operator()(const MemoryOff& r) const { return memory_sentences(r.terms, r.gaps); }
 
   std::string operator()(const TimesInstead& r) const { return times_instead_text(r.clock); }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "analysis/preparation/assumed_field.hpp"
@@ -183,8 +184,11 @@ std::string considered_text(const FilterView& v) {
 }
 
 std::string remembered_text(const FilterView& v) {
-  const auto& doubt = v.id.counted(v.summary).memory_doubt;
-  return doubt.empty() ? "" : fmt::format("Filter {}: the {}.", v.spec().name, memory_text(doubt));
+  const identification::FilterRun& run = v.id.counted(v.summary);
+  std::string said = memory_sentences(run.memory_doubt, run.memory_gaps);
+  if (said.empty()) return "";
+  said.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(said.front())));
+  return fmt::format("Filter {}: {}", v.spec().name, said);
 }
 
 std::vector<std::string> headlines(const mc::Study& study,

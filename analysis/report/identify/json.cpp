@@ -144,6 +144,13 @@ Json identification_document(const mc::Study& study, const identification::Ident
     Json& remembered = f["memory_off"] = Json::object();  // rms part of what a term remembers
     for (const MemoryLeftOut& one : id.counted(summary).memory_doubt)
       remembered[one.term] = one.part;
+    Json& gaps = f["memory_gaps"] = Json::object();  // over which a term's memory is not known
+    for (const identification::MemoryGaps& g : id.counted(summary).memory_gaps)
+      gaps[g.widest.term] = {{"from_position", g.widest.from + 1},
+                             {"to_position", g.widest.to + 1},
+                             {"seconds", g.widest.length},
+                             {"left", g.widest.left},
+                             {"gaps", g.count}};
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;
     f["degeneracies"] = directions_json(unseen_directions({study, id, summary}));

@@ -1,6 +1,24 @@
 #include "analysis/report/page/wording.hpp"
 
 namespace drift::report {
+namespace {
+
+/// What hangs on when the platform was turned, two sentences.
+std::string gap_text(const identification::MemoryGaps& gaps) {
+  constexpr double beyond_words = 0.01;  // a factor that says no more than "nothing is known"
+  const MemoryOverGap& g = gaps.widest;
+  const std::string more =
+      gaps.count > 1 ? fmt::format(" (and before {} more)", gaps.count - 1) : "";
+  const std::string factor =
+      g.left < beyond_words ? "more than 100" : fmt::format("{:.3g}", 1.0 / g.left);
+  return fmt::format(
+      "Between positions {} and {}{}, {:.3g} min are not recorded; that the platform was turned at "
+      "their beginning is assumed. If at their end, {} would be {} times smaller, and what is "
+      "found beside it may be none.",
+      g.from + 1, g.to + 1, more, g.length / 60.0, g.term, factor);
+}
+
+}  // namespace
 
 std::string parameter_key(std::size_t param) {
   return std::string(TermLibrary::specs[param].key.view());
@@ -73,6 +91,14 @@ std::string memory_text(const std::vector<MemoryLeftOut>& doubt) {
       "differs by so much (rms), and amplitudes of it are wrong by up to as much. It is less where "
       "commands take the drift away",
       listed(terms, "and"));
+}
+
+std::string memory_sentences(const std::vector<MemoryLeftOut>& doubt,
+                             const std::vector<identification::MemoryGaps>& gaps) {
+  std::vector<std::string> all;
+  if (!doubt.empty()) all.push_back("The " + memory_text(doubt) + ".");
+  for (const identification::MemoryGaps& g : gaps) all.push_back(gap_text(g));
+  return fmt::format("{}", fmt::join(all, " "));
 }
 
 std::string_view plural(std::size_t count) {

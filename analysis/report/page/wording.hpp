@@ -5,13 +5,13 @@
 #include <fmt/ranges.h>
 
 #include "analysis/identification/common_scale.hpp"
+#include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "analysis/report/page/report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/physics/coupling.hpp"
-#include "core/sim/memory_left_out.hpp"
 
 namespace drift::report {
 
@@ -39,6 +39,9 @@ std::string field_assumed_text(const Vec3& field_l);
 /// "memory of stiction (154 %) is that of the nominal path: ...", without an article before it and
 /// a full stop behind: of memory_doubt(), which is not empty.
 std::string memory_text(const std::vector<MemoryLeftOut>& doubt);
+/// The same and what gaps leave open, whole sentences; empty of nothing.
+std::string memory_sentences(const std::vector<MemoryLeftOut>& doubt,
+                             const std::vector<identification::MemoryGaps>& gaps);
 
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);
