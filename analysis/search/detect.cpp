@@ -36,6 +36,13 @@ Detection detect(Fitted nominal, const MeasuredTest& test, const SearchOptions& 
         options.read_off.covariates)
       c.log_prior = options.read_off.log_prior;
   out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
+  const bool alarm = nominal.noise.driven ||
+                     strongest_candidate(nominal) > out.thresholds.library_threshold ||
+                     strongest_window(nominal) > out.thresholds.scan_threshold;
+  if (const auto differing = alarm && !nominal.gross ? drift_of_cagings(nominal) : std::nullopt) {
+    nominal = with_noise(std::move(nominal), test.timeline, *differing);
+    out.thresholds = chance_thresholds(nominal, options.alpha, options.draws);
+  }
   if (const auto settled = settle_noise(nominal)) {
     out.noise_alone = nominal.noise;
     nominal = with_noise(std::move(nominal), test.timeline, settled->noise);

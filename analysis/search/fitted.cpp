@@ -164,9 +164,13 @@ Fitted examine(const FilterSpec& filter, const MeasuredTest& test, const BatchRe
                                          declared));
   if (f.gross) return with_noise(std::move(f), test.timeline, differences);
   lower_outliers(f.problem, declared);
-  const inference::NoiseEstimate noise = kinds == NoiseKinds::white
-                                             ? inference::estimate_noise(f.problem, declared, {}, 0)
-                                             : inference::estimate_noise(f.problem, declared);
+  const bool differ = beside != nullptr && inference::caging_drift.in(beside->noise.model);
+  const inference::NoiseEstimate noise =
+      kinds == NoiseKinds::white
+          ? inference::estimate_noise(f.problem, declared, {}, 0)
+          : inference::estimate_noise(
+                f.problem, declared, {}, inference::NoiseLimits::most_components,
+                differ ? inference::Cagings::may_differ : inference::Cagings::alike);
   return with_noise(std::move(f), test.timeline, noise);
 }
 

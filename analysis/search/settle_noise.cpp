@@ -12,6 +12,7 @@
 #include "analysis/inference/size_prior.hpp"
 #include "analysis/search/scores/library_prior.hpp"
 #include "analysis/search/scores/log_sum.hpp"
+#include "analysis/search/scores/unknown_input.hpp"
 #include "analysis/search/settings_alike.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -230,45 +231,21 @@ class NoiseOrEffects {
   std::vector<std::pair<Explanation, double>> met_;
 };
 
-/// The white noise that is left beside an input in one equation; the input itself is no noise and
-/// is left to be explained.
-NoiseEstimate beside(const Fitted& e, const inference::LoneInput& input) {
-  inference::NoiseModel with_input = declared_noise(e.filter);
-  with_input.lone = input;
-  NoiseEstimate left = inference::estimate_noise(e.problem, with_input, {}, 0);
-  left.model.lone = {};
-  return left;
-}
+/// Models of a test and what their weights sum up to, as logs.
+struct Competition {
+  Model best;
+  double alone = never, effects = never;
+  WithInput with;
+  double input = never;
 
-double log_period(const Fitted& e, const inference::NoiseModel& white) {
-  return inference::strongest_periodic_input(e.problem,
-                                             inference::Projector(e.problem.bare(), white))
-      .log_evidence();
-}
-
-/// An unknown input in one equation and the white noise that is left beside it.
-struct WithInput {
-  NoiseEstimate noise;
-  double log_evidence = never;  ///< of both
+  double top() const { return std::max({alone, effects, input}); }
+  double of_all() const {
+    return top() +
+           std::log(std::exp(alone - top()) + std::exp(effects - top()) + std::exp(input - top()));
+  }
 };
 
-/// The likeliest input. It is looked for on the white noise without it, which a large one makes
-/// large; beside one of free form the noise is estimated anew, as it is beside all that competes.
-WithInput with_input(const Fitted& e, const NoiseEstimate& white, UnknownInputs inputs) {
-  const inference::LoneEffect lone = inference::strongest_lone_input(e.problem, white.model);
-  const double log_lone = log_free_form(lone, e.problem),
-               log_periodic =
-                   inputs == UnknownInputs::periodic_too ? log_period(e, white.model) : never;
-  if (log_periodic > log_lone) return {white, white.log_evidence() + log_periodic};
-  WithInput out{beside(e, lone.input)};
-  out.log_evidence = out.noise.log_evidence() + log_price_of_free_form(e.problem);
-  return out;
-}
-
-}  // namespace
-
-std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, UnknownInputs inputs) {
-  if (!e.noise.driven) return std::nullopt;
+Competition compete(const Fitted& e, std::size_t tries, UnknownInputs inputs) {
   NoiseOrEffects models(e, tries);
   const Model alone{{}, e.noise, models.log_prior({}) + e.noise.log_evidence()};
   Model best = models.from_white();
@@ -276,16 +253,37 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, Unk
     if (Model m = models.climbed(begin);
         !m.in.empty() && (best.in.empty() || m.log_weight > best.log_weight))
       best = std::move(m);
-  const WithInput with = with_input(e, models.white({}).noise, inputs);
+  WithInput with = with_input(e, models.white({}).noise, inputs);
   const double of_input = std::log(PosteriorPrior::outside) + with.log_evidence;
-  const double of_effects = models.log_sum_of_effects();
-  const double top = std::max({alone.log_weight, of_effects, of_input});
-  const double noise = std::exp(alone.log_weight - top), effects = std::exp(of_effects - top),
-               input = std::exp(of_input - top), p = noise / (noise + effects + input);
+  return {std::move(best), alone.log_weight, models.log_sum_of_effects(), std::move(with),
+          of_input};
+}
+
+}  // namespace
+
+std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, UnknownInputs inputs) {
+  if (!e.noise.driven) return std::nullopt;
+  Competition c = compete(e, tries, inputs);
+  const double p = std::exp(c.alone - c.of_all());
   if (p > inference::SearchLimits::credible) return std::nullopt;
-  if (input > effects) return NoiseSettled{with.noise, 1.0 - p};
-  if (best.in.empty()) return std::nullopt;
-  return NoiseSettled{std::move(best.noise), 1.0 - p};
+  if (c.input > c.effects) return NoiseSettled{c.with.noise, 1.0 - p};
+  if (c.best.in.empty()) return std::nullopt;
+  return NoiseSettled{std::move(c.best.noise), 1.0 - p};
+}
+
+std::optional<NoiseEstimate> drift_of_cagings(const Fitted& e) {
+  using inference::SearchLimits;
+  Fitted differing = e;
+  differing.noise = inference::estimate_noise(e.problem, declared_noise(e.filter), {},
+                                              inference::NoiseLimits::most_components,
+                                              inference::Cagings::may_differ);
+  if (!inference::caging_drift.in(differing.noise.model)) return std::nullopt;
+  const auto of_all = [](const Fitted& f) {
+    return compete(f, EffortLimits::noise_tries, UnknownInputs::periodic_too).of_all();
+  };
+  const double odds = std::log(SearchLimits::credible / (1.0 - SearchLimits::credible));
+  if (of_all(differing) - of_all(e) < odds) return std::nullopt;
+  return std::move(differing.noise);
 }
 
 }  // namespace drift::search

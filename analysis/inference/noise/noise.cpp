@@ -174,12 +174,12 @@ std::optional<Mixture> much_as(const MarginalLikelihood& rows, const NoiseModel&
 }  // namespace
 
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
-                             const std::vector<int>& in_mean, int most_added) {
+                             const std::vector<int>& in_mean, int most_added, Cagings cagings) {
   const MarginalLikelihood rows(problem, in_mean);
   Mixture m = declared_mixture(rows, declared);
   for (int added = 0; added < most_added; ++added) {
-    std::optional<Mixture> more =
-        with_one_more(rows, m, declared, possible_additions(m.model, RowCounts(rows.measured())));
+    std::optional<Mixture> more = with_one_more(
+        rows, m, declared, possible_additions(m.model, RowCounts(rows.measured()), cagings));
     if (!more) break;
     m = std::move(*more);
   }

@@ -3,13 +3,12 @@
 #include <vector>
 
 #include "analysis/inference/linear_problem.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/noise/noise_finding.hpp"
 #include "analysis/inference/noise/noise_model.hpp"
 #include "analysis/inference/thresholds.hpp"
 
 namespace drift::inference {
-
-struct NoiseComponent;
 
 /// What the noise is, estimated with the model's parameters taken into account.
 struct NoiseEstimate {
@@ -39,7 +38,8 @@ struct NoiseEstimate {
 /// what is declared.
 NoiseEstimate estimate_noise(const LinearProblem& problem, const NoiseModel& declared,
                              const std::vector<int>& with = {},
-                             int most_added = NoiseLimits::most_components);
+                             int most_added = NoiseLimits::most_components,
+                             Cagings cagings = Cagings::alike);
 /// The same where much the same is expected: from `start` if that holds for these rows as well;
 /// else of its components alone, with its time constants to begin with, as long as the evidence is
 /// better with them.

@@ -21,7 +21,8 @@ Usual usual_size(const NoiseComponent& c, const NoiseModel& declared) {
   return c.size;
 }
 
-std::vector<Addition> possible_additions(const NoiseModel& model, const RowCounts& rows) {
+std::vector<Addition> possible_additions(const NoiseModel& model, const RowCounts& rows,
+                                         Cagings cagings) {
   std::vector<Addition> all;
   for (const NoiseComponent* c : {&angle_walk, &drift_walk})
     if (!c->in(model)) all.push_back({c});
@@ -29,7 +30,8 @@ std::vector<Addition> possible_additions(const NoiseModel& model, const RowCount
     for (const double tau : {600.0, 2400.0}) all.push_back({&markov_drift, tau});
   // Of two, the fixed drift is their mean, and their difference what any ramp makes of it.
   constexpr std::size_t enough = 3;
-  if (!caging_drift.in(model) && rows.cagings >= enough) all.push_back({&caging_drift});
+  if (cagings == Cagings::may_differ && !caging_drift.in(model) && rows.cagings >= enough)
+    all.push_back({&caging_drift});
   // Gimbals tell it from what drives the platform.
   if (!acc_markov.in(model) && rows.accelerometer > 0 && rows.gimbal > 0)
     for (const double tau : {150.0, 900.0}) all.push_back({&acc_markov, tau});

@@ -98,7 +98,12 @@ struct Addition {
   double tau = 0.0;
 };
 
+/// Whether a drift that each caging draws anew may be noise. It is as free as the data of one
+/// dwell: what it stands for must have lost first (drift_of_cagings()).
+enum class Cagings { alike, may_differ };
+
 /// What `model` leaves out and the rows can show: time constants on a coarse grid.
-std::vector<Addition> possible_additions(const NoiseModel& model, const RowCounts& rows);
+std::vector<Addition> possible_additions(const NoiseModel& model, const RowCounts& rows,
+                                         Cagings cagings);
 
 }  // namespace drift::inference

@@ -217,11 +217,11 @@ std::string held_out_text(const diagnosis::Diagnosis& d, bool several) {
 }
 
 std::string misfit_text(const diagnosis::Diagnosis& d) {
-  constexpr double badly = 4.0;  // times the band of 95 %
   const double band = d.fit.band_high;
-  if (d.nearest_known || !(band > 0.0) || !(d.fit.chi2_per_dof_before > badly * band)) return "";
-  return fmt::format(", chi-square per degree of freedom is {:.3g} where noise makes 1",
-                     d.fit.chi2_per_dof_before);
+  if (d.nearest_known || !(band > 0.0) || !(d.fit.chi2_per_dof_before > band)) return "";
+  return fmt::format(
+      ", chi-square per degree of freedom is {:.3g} where noise makes {:.3g} to {:.3g}",
+      d.fit.chi2_per_dof_before, d.fit.band_low, band);
 }
 
 std::string errors_text(const diagnosis::Diagnosis& d) {

@@ -54,7 +54,8 @@ TEST(CagingDrift, IsFoundWithItsSizeAndNothingElseIs) {
     ASSERT_NE(found, d.noise.end());
     // Three of each caging, of which the fixed drift takes one: four sigma of their scatter.
     EXPECT_NEAR(found->value / sigma, 1.0, 4.0 / std::sqrt(2.0 * 3.0 * (c.cagings - 1.0)));
-    EXPECT_NE(report::to_text(d).find("differs from caging to caging"), std::string::npos);
+    EXPECT_NE(report::diagnosis_in_brief(d).verdict.find("from caging to caging"),
+              std::string::npos);
   }
 }
 
