@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/blind/generate.hpp"
+#include "analysis/inference/noise/noise_component.hpp"
 
 namespace drift::blind {
 namespace {
@@ -80,9 +81,10 @@ double size_of_noise(const Timeline& timeline, const CovariateSpec& c, Stream& s
 
 HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream) {
   HiddenEffect e;
-  constexpr std::size_t of_each_caging = 5, wandering = 3, enough = 3;
+  constexpr std::size_t of_each_caging = 5, wandering = 3;
   kind %= num_noise_faults;
-  if (kind == of_each_caging && static_cast<std::size_t>(world.timeline.chains) < enough)
+  if (kind == of_each_caging &&
+      static_cast<std::size_t>(world.timeline.chains) <= inference::least_cagings)
     kind = wandering;
   switch (kind) {
     case 0: {

@@ -68,8 +68,8 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
   Pairs P = Pairs::Zero();
   const OverPairs initial = initial_covariance(s, noise);
   P.topLeftCorner(used, used) = initial;
-  events_.reserve(3 * rows.drives.size());
-  moves_.reserve(2 * rows.drives.size() * 4 * static_cast<std::size_t>(others));
+  events_.reserve(4 * rows.drives.size());
+  moves_.reserve(3 * rows.drives.size() * 4 * static_cast<std::size_t>(others));
   Eigen::Index next = 0;
   double product = 1.0;  // whose log is taken now and then
   walk(

@@ -11,9 +11,8 @@ namespace drift::stats {
 
 Band chi_square_band(double dof) {
   if (!(dof > 0.0) || !std::isfinite(dof)) return {nan_value, nan_value};
-  constexpr double tail = 0.025;
   const double a = 0.5 * dof;
-  return {boost::math::gamma_p_inv(a, tail) / a, boost::math::gamma_q_inv(a, tail) / a};
+  return {boost::math::gamma_p_inv(a, band_tail) / a, boost::math::gamma_q_inv(a, band_tail) / a};
 }
 
 double chi_square_chance(double per_dof, double dof) {

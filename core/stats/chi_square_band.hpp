@@ -8,6 +8,8 @@ struct Band {
   bool holds(double value) const { return value >= low && value <= high; }
 };
 
+inline constexpr double band_tail = 0.025;  ///< beyond either end of chi_square_band()
+
 /// Where chi-square divided by its degrees of freedom lies with 95 % probability, 2.5 % on either
 /// side (Boost.Math). NaN without degrees.
 Band chi_square_band(double dof);

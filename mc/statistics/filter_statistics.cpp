@@ -15,7 +15,7 @@ bool ChiSquareSum::add(double value, double degrees) {
   sum += value;
   dof += degrees;
   const double below = chi_square_probability(value, degrees);
-  const bool inside = below >= 0.025 && below <= 0.975;
+  const bool inside = below >= stats::band_tail && below <= 1.0 - stats::band_tail;
   in_band.count(inside);
   place.add(below);
   return inside;

@@ -20,6 +20,8 @@ using config::list_node;
 using config::Node;
 using config::text_node;
 
+constexpr int noise_digits = 3;  // it is never known better
+
 /// The value of a key of a table, made if it is not there.
 Node& at(Node& table, const std::string& key) {
   if (Node* found = table.find(key)) return *found;
@@ -188,32 +190,70 @@ std::string study_with_field(const mc::Study& study, const Vec3& field_l) {
   return config::to_document(root);
 }
 
-bool can_be_declared(const inference::NoiseFinding& found, RecordingKind kind) {
+namespace {
+
+bool has_walk_term(const FilterSpec& filter) {
+  return filter.active[TermLibrary::find("q_x").value()] ||
+         filter.active[TermLibrary::find("q_y").value()] ||
+         filter.active[TermLibrary::find("q_z").value()];
+}
+
+RecordingKind kind_of(const Diagnosis& d) {
+  return d.of_case ? RecordingKind::strapdown : RecordingKind::platform;
+}
+
+void declare_walk(Node& root, const mc::Study& study, const inference::NoiseFinding& walk) {
+  const auto of = [&](const FilterSpec& filter) {
+    return walk.component == inference::angle_walk.name ? filter.noise.angle_random_walk
+                                                        : filter.noise.drift_random_walk;
+  };
+  first_filter(root, study);  // there is one
+  std::vector<Node>& filters = root.find("filter")->items;
+  for (std::size_t k = 0; k < filters.size(); ++k)
+    if (of(study.filters[k]) == of(study.filters.front()) && !has_walk_term(study.filters[k]))
+      at(filters[k], walk.component) =
+          text_node(fmt::format("{} {}", number_text(walk.value, noise_digits), walk.unit));
+}
+
+}  // namespace
+
+bool can_be_declared(const inference::NoiseFinding& found, RecordingKind kind,
+                     const FilterSpec& nominal) {
   const std::string& c = found.component;
-  const bool of_platform = kind == RecordingKind::platform;
-  return found.significant &&
-         (c == inference::drift_walk.name ||
-          (of_platform && (c == inference::angle_walk.name || c == inference::acc_white.name ||
-                           c == inference::gimbal_white.name)));
+  if (!found.significant) return false;
+  if (c == inference::drift_walk.name) return !has_walk_term(nominal);
+  return kind == RecordingKind::platform &&
+         (c == inference::angle_walk.name || c == inference::acc_white.name ||
+          c == inference::gimbal_white.name);
 }
 
 bool declares_noise(const Diagnosis& d) {
-  const RecordingKind kind = d.of_case ? RecordingKind::strapdown : RecordingKind::platform;
+  const RecordingKind kind = kind_of(d);
   return !d.wrong_study() && (d.has_patch || d.verdict == Verdict::consistent) &&
-         std::ranges::any_of(
-             d.noise, [&](const inference::NoiseFinding& f) { return can_be_declared(f, kind); });
+         std::ranges::any_of(d.noise, [&](const inference::NoiseFinding& f) {
+           return can_be_declared(f, kind, d.nominal);
+         });
+}
+
+std::vector<std::string> not_declared(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const inference::NoiseFinding& f : d.noise)
+    if (f.significant && f.component != "outliers" && !can_be_declared(f, kind_of(d), d.nominal))
+      all.push_back(std::isfinite(f.factor)
+                        ? fmt::format("{} ({} times)", f.component, number_text(f.factor, 2))
+                        : fmt::format("{} {} {}", f.component, number_text(f.value, 2), f.unit));
+  return all;
 }
 
 std::string study_with_noise(const mc::Study& study,
                              const std::vector<inference::NoiseFinding>& found) {
-  constexpr int digits = 3;  // a noise is never known better
   Node root = parsed(study);
   const auto declare = [&](Node& table, const std::string& key, double si, const Unit& unit) {
-    at(table, key) =
-        text_node(fmt::format("{} {}", number_text(si / unit.to_si, digits), unit.symbol.view()));
+    at(table, key) = text_node(
+        fmt::format("{} {}", number_text(si / unit.to_si, noise_digits), unit.symbol.view()));
   };
   for (const inference::NoiseFinding& f : found) {
-    if (!can_be_declared(f, study.kind)) continue;
+    if (!can_be_declared(f, study.kind, study.filters.front())) continue;
     if (f.component == inference::acc_white.name)
       declare(at(root, "readout"), "accelerometer_noise",
               f.factor * study.readout.accelerometer_noise, unit::ug);
@@ -221,8 +261,7 @@ std::string study_with_noise(const mc::Study& study,
       declare(at(root, "readout"), "gimbal_noise", f.factor * study.readout.gimbal_noise,
               unit::arcsec);
     else
-      at(first_filter(root, study), f.component) =
-          text_node(fmt::format("{} {}", number_text(f.value, digits), f.unit));
+      declare_walk(root, study, f);
   }
   return config::to_document(root);
 }

@@ -36,15 +36,22 @@ std::string patched_study(const mc::Study& study, const FilterSpec& patched);
 std::string study_with_field(const mc::Study& study, const Vec3& field_l);
 
 /// Whether a study of this kind can declare noise that a diagnosis found, and it is significant:
-/// white noise of a platform's instruments in [readout], random walks in the first filter (on a
-/// case that of the drift). No key stands for correlated noise.
-bool can_be_declared(const inference::NoiseFinding& found, RecordingKind kind);
+/// white noise of a platform's instruments in [readout], random walks in the filters (on a case
+/// that of the drift, and none of the drift beside the term drift_random_walk, which has sizes of
+/// its own). No key stands for correlated noise.
+bool can_be_declared(const inference::NoiseFinding& found, RecordingKind kind,
+                     const FilterSpec& nominal);
 
 /// Whether the patched study of a diagnosis declares some: not where something unexplained may be
 /// what looks like noise.
 bool declares_noise(const Diagnosis& d);
 
-/// The study file with what can_be_declared() of the noise that was found.
+/// What of the noise that a diagnosis found cannot be declared: "caging_drift 0.01 deg/h".
+std::vector<std::string> not_declared(const Diagnosis& d);
+
+/// The study file with what can_be_declared() of the noise that was found: walks in every
+/// filter that has as much of them as the first, since they are of the unit, whatever equation it
+/// is described by.
 std::string study_with_noise(const mc::Study& study,
                              const std::vector<inference::NoiseFinding>& found);
 

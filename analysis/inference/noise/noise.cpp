@@ -76,8 +76,20 @@ std::optional<Mixture> with_one_more(const MarginalLikelihood& rows, const Mixtu
   return best;
 }
 
+/// Twice the log likelihood of a mixture over that of one of whose components is as declared.
+double gain_over_declared(const MarginalLikelihood& rows, Mixture m, std::size_t k,
+                          const NoiseModel& declared) {
+  const double best = m.log_likelihood2;
+  double NoiseModel::*const sigma = m.active[k].component->sigma;
+  m.model.*sigma = declared.*sigma;
+  m.active.erase(m.active.begin() + static_cast<std::ptrdiff_t>(k));
+  m.covariance = {};
+  return std::max(0.0, best - fitted(rows, std::move(m)).log_likelihood2);
+}
+
 /// A component that drives the platform: p by its gain, or against what was declared.
-NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& declared) {
+NoiseFinding driving_finding(const MarginalLikelihood& rows, const Mixture& m, std::size_t k,
+                             const NoiseModel& declared) {
   const auto& [c, gain] = m.active[k];
   const double sigma = m.model.*(c->sigma), was = declared.*(c->sigma);
   NoiseFinding f;
@@ -99,13 +111,17 @@ NoiseFinding driving_finding(const Mixture& m, std::size_t k, const NoiseModel& 
     f.factor_sigma = f.factor * log_sigma;
     const double z = std::log(f.factor) / log_sigma;
     f.p_value = std::exp(stats::log_tail(z * z, 1.0));
+    // Of next to none its log is not known, however well it is known that it is none.
+    if (f.factor < 1.0 && f.p_value >= NoiseLimits::significant_p)
+      f.p_value = std::exp(stats::log_tail(gain_over_declared(rows, m, k, declared), 1.0));
     f.significant = f.p_value < NoiseLimits::significant_p;
   }
   return f;
 }
 
 std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declared,
-                                      const MeasuredRows& rows) {
+                                      const MarginalLikelihood& likelihood) {
+  const MeasuredRows& rows = likelihood.measured();
   const RowCounts count(rows);
   std::vector<NoiseFinding> all;
   for (std::size_t k = 0; k < m.active.size(); ++k) {
@@ -113,7 +129,7 @@ std::vector<NoiseFinding> findings_of(const Mixture& m, const NoiseModel& declar
     all.push_back(c.white() ? white_finding(c.name, m.model.*(c.sigma) / (declared.*(c.sigma)),
                                             1.0 / std::sqrt(2.0 * static_cast<double>(count.of(c))),
                                             count.of(c))
-                            : driving_finding(m, k, declared));
+                            : driving_finding(likelihood, m, k, declared));
     if (rows.driven_at_most && &c != &acc_white && all.back().factor < 1.0)
       all.back().significant = false;
   }
@@ -124,7 +140,7 @@ NoiseEstimate as_estimate(const Mixture& m, const NoiseModel& declared,
                           const MarginalLikelihood& rows) {
   NoiseEstimate out;
   out.model = m.model;
-  out.findings = findings_of(m, declared, rows.measured());
+  out.findings = findings_of(m, declared, rows);
   out.log_likelihood2 = m.log_likelihood2;
   out.log_price =
       NoisePrior::log_not_as_declared() + log_price(m, declared, rows.measured().acc_sigma);

@@ -6,7 +6,7 @@ namespace drift::inference {
 
 RowCounts::RowCounts(const MeasuredRows& rows) {
   for (const RowTag& t : rows.tags) ++(t.accelerometer() ? accelerometer : gimbal);
-  for (const IntervalDrive& d : rows.drives) cagings += !d.rest && (d.begins || d.cage);
+  for (const IntervalDrive& d : rows.drives) cagings += !d.rest && d.cage && !d.begins;
 }
 
 Usual usual_size(const NoiseComponent& c, const NoiseModel& declared) {
@@ -28,9 +28,7 @@ std::vector<Addition> possible_additions(const NoiseModel& model, const RowCount
     if (!c->in(model)) all.push_back({c});
   if (!markov_drift.in(model))
     for (const double tau : {600.0, 2400.0}) all.push_back({&markov_drift, tau});
-  // Of two, the fixed drift is their mean, and their difference what any ramp makes of it.
-  constexpr std::size_t enough = 3;
-  if (cagings == Cagings::may_differ && !caging_drift.in(model) && rows.cagings >= enough)
+  if (cagings == Cagings::may_differ && !caging_drift.in(model) && rows.cagings >= least_cagings)
     all.push_back({&caging_drift});
   // Gimbals tell it from what drives the platform.
   if (!acc_markov.in(model) && rows.accelerometer > 0 && rows.gimbal > 0)

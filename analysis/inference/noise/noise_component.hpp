@@ -83,7 +83,7 @@ inline double unit_of(const NoiseComponent& c, double acc_sigma) {
   return &c == &acc_markov ? acc_sigma : 1.0;
 }
 
-/// Rows of the instruments; cagings of a platform, the first of each recording among them.
+/// Rows of the instruments; cagings of a platform after the first of each recording.
 struct RowCounts {
   std::size_t accelerometer = 0, gimbal = 0, cagings = 0;
   explicit RowCounts(const MeasuredRows& rows);
@@ -97,6 +97,10 @@ struct Addition {
   const NoiseComponent* component = nullptr;
   double tau = 0.0;
 };
+
+/// Of one caging more, the fixed drift is the mean of two, and their difference what any ramp
+/// makes of it.
+inline constexpr std::size_t least_cagings = 2;
 
 /// Whether a drift that each caging draws anew may be noise. It is as free as the data of one
 /// dwell: what it stands for must have lost first (drift_of_cagings()).

@@ -42,6 +42,8 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: correct {}, or widen it to hold what the fit takes, and diagnose again.", priors);
   if (off_zero && d.verdict != Verdict::consistent)
     return "Next: correct the zero, or its offset, and diagnose again.";
+  if (d.verdict == Verdict::ambiguous && remark_in<remark::TimesInstead>(d) != nullptr)
+    return "Next: look up the sample interval of the log, before anything is added to the plan.";
   if (!d.advice.empty()) return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
@@ -56,8 +58,12 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: diagnose again under the other equation, and see what is missing: --set {}.",
         shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
   if (declares_noise(d))
-    return "Next: identify with patched.toml, the study with the noise that was found: the sigmas "
-           "of identify are of the noise that is declared.";
+    return fmt::format(
+        "Next: identify with patched.toml, the study with the noise that was found{}: the sigmas "
+        "of identify are of the noise that is declared.",
+        not_declared(d).empty()
+            ? ""
+            : fmt::format(" but for {}, for want of a key", listed(not_declared(d), "and")));
   if (d.proposal)
     return "Next: look for what acts there and then. With the [[term]] of proposal.toml in the "
            "study, another recording tells whether it comes again.";

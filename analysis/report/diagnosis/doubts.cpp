@@ -112,6 +112,10 @@ std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
     all.emplace_back("Prior", beyond_prior_text(*beyond) + ".");
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)
     all.emplace_back("Gravity", common_scale_text(*beyond->scales));
+  // Of one cause the sentence says it; behind several it would be cut off.
+  if (const auto* times = remark_in<remark::TimesInstead>(d);
+      times != nullptr && d.verdict == Verdict::ambiguous)
+    all.emplace_back("Clock", times_in_brief(times->clock));
   if (const auto* off = remark_in<remark::MemoryOff>(d))
     all.emplace_back("Memory", memory_sentences(off->terms, off->gaps));
   const auto* samples = remark_in<remark::SamplesLeftOut>(d);

@@ -57,12 +57,21 @@ std::string widened_text(const Diagnosis& d) {
       priors.size() > 1 ? "are" : "is", listed(priors, "and"));
 }
 
+std::string undeclared_text(const Diagnosis& d) {
+  const std::vector<std::string> left = not_declared(d);
+  return left.empty() ? ""
+                      : fmt::format(
+                            "Not in it, for want of a key: {}. For identify it is a misfit, or "
+                            "sigmas that are too small.",
+                            listed(left, "and"));
+}
+
 /// The patched study, headed by what it holds where several causes remain possible, and by the
 /// priors that are wider than those of the library. With the noise that was found, without which
 /// its sigmas would not hold.
 std::string patched_file(const mc::Study& study, const Diagnosis& d) {
   std::string out;
-  for (const std::string& head : {patch_text(d), widened_text(d)}) {
+  for (const std::string& head : {patch_text(d), widened_text(d), undeclared_text(d)}) {
     std::istringstream lines(head.empty() ? "" : wrapped(head, 98));
     for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
   }

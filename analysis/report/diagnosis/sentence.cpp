@@ -67,7 +67,7 @@ std::string noise_text(const Diagnosis& d) {
 bool wanders(const Diagnosis& d) {
   return std::ranges::any_of(d.noise, [](const inference::NoiseFinding& f) {
     return f.significant && std::ranges::any_of(inference::beside_white, [&](const auto* c) {
-             return c->name == f.component;
+             return c->name == f.component && c != &inference::caging_drift;
            });
   });
 }
@@ -219,7 +219,8 @@ std::string rival_text(const Diagnosis& d) {
 
 /// A latitude that explains what was found, and is less likely; and times that do.
 std::string other_study_text(const Diagnosis& d) {
-  const auto* times = remark_in<remark::TimesInstead>(d);
+  const auto* times =
+      d.verdict == Verdict::ambiguous ? nullptr : remark_in<remark::TimesInstead>(d);
   if (!d.other_latitude) return times == nullptr ? "" : " " + times_in_brief(times->clock);
   const identification::LatitudeDoubt& other = *d.other_latitude;
   if (other.clock)

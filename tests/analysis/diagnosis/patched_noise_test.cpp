@@ -44,9 +44,34 @@ TEST(PatchedNoise, ReadsBackAsWhatWasFoundOfWhatCanBeDeclared) {
   const auto& noise = again.filters.front().noise;
   EXPECT_NEAR(noise.angle_random_walk, 0.0021 * unit::deg_per_sqrt_h.to_si, 1e-12);
   EXPECT_NEAR(noise.drift_random_walk, 0.04 * unit::deg_per_h_per_sqrt_h.to_si, 1e-15);
-  EXPECT_EQ(again.filters.back().noise.drift_random_walk, 0.0) << "another filter";
-  EXPECT_FALSE(can_be_declared(found[4], RecordingKind::platform)) << "no key for it";
-  EXPECT_FALSE(can_be_declared(found[0], RecordingKind::strapdown));
+  EXPECT_EQ(again.filters.back().noise.drift_random_walk, noise.drift_random_walk)
+      << "a walk is of the unit, whatever equation it is described by";
+  const FilterSpec& nominal = study.filters.front();
+  EXPECT_FALSE(can_be_declared(found[4], RecordingKind::platform, nominal)) << "no key for it";
+  EXPECT_FALSE(can_be_declared(found[0], RecordingKind::strapdown, nominal));
+  Diagnosis d;
+  d.nominal = nominal;
+  d.noise = found;
+  EXPECT_EQ(not_declared(d), std::vector<std::string>{"markov_drift 0.01 deg/h"});
+  d.has_patch = true;
+  EXPECT_TRUE(declares_noise(d));
+}
+
+TEST(PatchedNoise, AWalkIsNotDeclaredTwice) {
+  const test::ScratchFolder folder;
+  const mc::Study study = read_text(folder, "s.toml",
+                                    std::string(nominal_study) +
+                                        "[[filter]]\nname = \"walks\"\ncoupling = \"eq5\"\n"
+                                        "terms = [\"fixed_drift\", \"drift_random_walk\"]\n"
+                                        "[[filter]]\nname = \"has its own\"\ncoupling = \"eq5\"\n"
+                                        "drift_random_walk = \"0.003 deg/h/sqrt(h)\"\n");
+  const auto walk = finding("drift_random_walk", std::nan(""), 0.04, "deg/h/sqrt(h)");
+  const mc::Study again = read_text(folder, "again.toml", study_with_noise(study, {walk}));
+  EXPECT_GT(again.filters[0].noise.drift_random_walk, 0.0);
+  EXPECT_EQ(again.filters[2].noise.drift_random_walk, 0.0) << "its term has one";
+  EXPECT_EQ(again.filters[3].noise.drift_random_walk, study.filters[3].noise.drift_random_walk)
+      << "declared otherwise on purpose";
+  EXPECT_FALSE(can_be_declared(walk, RecordingKind::platform, study.filters[2]));
 }
 
 /// A test of a unit of the nominal model with resolvers of three times the declared noise and gyros
@@ -76,8 +101,8 @@ TEST(PatchedNoise, WithItTheFitIsOneOfTheNoise) {
   EXPECT_NE(report::diagnosis_in_brief(d).next.find("patched.toml"), std::string::npos);
 
   const mc::Study patched = read_text(folder, "patched.toml", study_with_noise(study, d.noise));
-  EXPECT_NEAR(patched.readout.gimbal_noise / coarse.gimbal_noise, 1.0, 0.1)
-      << "four sigma of its 2,000 readings";
+  EXPECT_NEAR(patched.readout.gimbal_noise / coarse.gimbal_noise, 1.0, 4.0 / std::sqrt(2160.0))
+      << "four sigma of its 1,080 readings";
   const auto score = [&](const mc::Study& s) {
     const BatchResult fit = fit_batch(s.filters.front(), {timeline, s.readout, measured},
                                       initial_estimate(s.filters.front(), 0, 0));

@@ -64,6 +64,21 @@ TEST(Noise, AngleRandomWalkIsFoundWithItsSize) {
   EXPECT_NEAR(ratio, 1.0, 0.10);
 }
 
+TEST(Noise, ADeclaredWalkThatIsNotThereIsFoundNotToBe) {
+  NoiseModel declared;
+  declared.angle_random_walk = 5e-3 * drift::detail::deg / 60.0;
+  const NoiseEstimate none =
+      estimate_noise(problem_of(base_truth(Coupling::eq5), 0, 1.0), declared);
+  const NoiseFinding* found = find(none, "angle_random_walk");
+  ASSERT_NE(found, nullptr);
+  EXPECT_TRUE(found->significant) << found->factor << " " << found->p_value;
+  EXPECT_LT(found->factor, 0.3);
+  TruthSpec truth = base_truth(Coupling::eq5);
+  truth.noise.angle_random_walk = declared.angle_random_walk;
+  const NoiseEstimate there = estimate_noise(problem_of(truth, 0, 1.0), declared);
+  EXPECT_FALSE(find(there, "angle_random_walk")->significant);
+}
+
 TEST(Noise, MoreOfADeclaredKindThanDeclaredMayBeAnEffect) {
   TruthSpec truth = base_truth(Coupling::eq5);
   truth.noise.angle_random_walk = 5e-3 * drift::detail::deg / 60.0;

@@ -51,8 +51,8 @@ double held(std::size_t n, double bias, bool of_ratio, std::uint64_t seed) {
   return static_cast<double>(inside) / trials;
 }
 
-TEST(IntervalsOfFewRuns, HoldNinetyOneToNinetySevenOfAHundred) {
-  // The scatter of 2,000 trials is 0.5 %: three of it on either side of what is promised.
+TEST(IntervalsOfFewRuns, HoldNinetyOneToNinetySixOfAHundred) {
+  // The scatter of 2,000 trials is 0.5 %: three of it on either side of these.
   for (const std::size_t n : {2u, 3u, 5u, 10u, 30u, 100u})
     for (const double bias : {0.0, 3.0})
       for (const bool of_ratio : {false, true}) {
