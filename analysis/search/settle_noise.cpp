@@ -81,15 +81,16 @@ class NoiseOrEffects {
   }
 
   /// White noise with candidates added one after the other as long as that gains.
-  Model from_white() {
+  Model white_with_candidates() {
     Model now = white({});
     while (now.in.size() < EffortLimits::together) {
       std::optional<Model> best = best_white(additions(now));
       if (!best || best->log_weight <= now.log_weight) break;
       now = std::move(*best);
     }
-    return driven(now.in);
+    return now;
   }
+  Model from_white() { return driven(white_with_candidates().in); }
 
   /// The weight of a model, or less, by a few evaluations: the best of white noise and of `noise`
   /// with what drives the platform in it at some shares of its size. An estimate takes a hundred.
@@ -273,17 +274,20 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e, std::size_t tries, Unk
 
 std::optional<NoiseEstimate> drift_of_cagings(const Fitted& e) {
   using inference::SearchLimits;
-  Fitted differing = e;
-  differing.noise = inference::estimate_noise(e.problem, declared_noise(e.filter), {},
-                                              inference::NoiseLimits::most_components,
-                                              inference::Cagings::may_differ);
-  if (!inference::caging_drift.in(differing.noise.model)) return std::nullopt;
-  const auto of_all = [](const Fitted& f) {
-    return compete(f, EffortLimits::noise_tries, UnknownInputs::periodic_too).of_all();
-  };
+  NoiseEstimate differing = inference::estimate_noise(e.problem, declared_noise(e.filter), {},
+                                                      inference::NoiseLimits::most_components,
+                                                      inference::Cagings::may_differ);
+  if (!inference::caging_drift.in(differing.model)) return std::nullopt;
+  constexpr std::size_t tries = EffortLimits::noise_tries;
   const double odds = std::log(SearchLimits::credible / (1.0 - SearchLimits::credible));
-  if (of_all(differing) - of_all(e) < odds) return std::nullopt;
-  return std::move(differing.noise);
+  const double weight = std::log(PosteriorPrior::nothing) + differing.log_evidence();
+  // Most often white noise and a few candidates are enough to say no.
+  const auto loses_to = [&](double others) { return weight - others < odds; };
+  if (loses_to(std::log(PosteriorPrior::nothing) + e.noise.log_evidence()) ||
+      loses_to(NoiseOrEffects(e, tries).white_with_candidates().log_weight) ||
+      loses_to(compete(e, tries, UnknownInputs::periodic_too).of_all()))
+    return std::nullopt;
+  return differing;
 }
 
 }  // namespace drift::search

@@ -31,8 +31,8 @@ std::optional<NoiseSettled> settle_noise(const Fitted& e,
                                          std::size_t tries = inference::EffortLimits::noise_tries,
                                          UnknownInputs inputs = UnknownInputs::periodic_too);
 
-/// The noise with a drift in it that each caging draws anew, where the test has credible odds for
-/// that: all models under such noise against all without it, unknown inputs included.
+/// The noise with a drift in it that each caging draws anew, where it alone has credible odds
+/// against all models without it, effects and unknown inputs included.
 std::optional<inference::NoiseEstimate> drift_of_cagings(const Fitted& e);
 
 }  // namespace drift::search
