@@ -12,8 +12,8 @@
 #include "analysis/inference/size_prior.hpp"
 #include "analysis/search/scores/library_prior.hpp"
 #include "analysis/search/scores/log_sum.hpp"
-#include "analysis/search/scores/unknown_input.hpp"
 #include "analysis/search/settings_alike.hpp"
+#include "analysis/search/unknown_input.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::search {

@@ -1,4 +1,4 @@
-#include "analysis/search/scores/unknown_input.hpp"
+#include "analysis/search/unknown_input.hpp"
 
 #include "analysis/search/scores/library_prior.hpp"
 
