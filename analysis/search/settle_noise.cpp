@@ -239,11 +239,7 @@ struct Competition {
   WithInput with;
   double input = never;
 
-  double top() const { return std::max({alone, effects, input}); }
-  double of_all() const {
-    return top() +
-           std::log(std::exp(alone - top()) + std::exp(effects - top()) + std::exp(input - top()));
-  }
+  double of_all() const { return log_sum(log_sum(alone, effects), input); }
 };
 
 Competition compete(const Fitted& e, std::size_t tries, UnknownInputs inputs) {
