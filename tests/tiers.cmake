@@ -7,7 +7,7 @@ set(DRIFT_FULL_TESTS
   Advise.* AllanFit.* AdviceFollowed.* BetweenPoints.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* ClockDoubt.* CoarseReadout.* Crossed*.* DamageTold.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
   Equation.* IsolatedSamplesOfSlews.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FoldersOfOthers.* HeadingDoubt.* LambdaFilter.* Matched*.*
   Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
-  RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* Strapdown*.* StudyConfig.Misspelt*
+  RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* SizeBeyondPrior.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.* WrongHemisphere.*
   SweepPictures.* UnequalRowsDiagnosed.* UnknownField.* WhereFollows.*)
 # Minutes each: not run unless asked for.

@@ -110,6 +110,11 @@ double share_of_sizes(double w) {
   return std::erfc(beyond / std::numbers::sqrt2) * (beyond / w) * (beyond / w);
 }
 
+DataAlone without_prior(double off, double sigma, double prior_sigma) {
+  const double told = 1.0 - std::pow(sigma / prior_sigma, 2);  // of the prior's variance
+  return {off / told, off / (prior_sigma * std::sqrt(told))};
+}
+
 double log_evidence_of_sizes(const MatX& C, const VecX& g) {
   if (g.size() == 0) return 0.0;
   const Rotated r(C, g);

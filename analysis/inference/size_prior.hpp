@@ -19,6 +19,16 @@ namespace drift::inference {
 /// and has a prior of w sigmas, so that nothing holds it back.
 double share_of_sizes(double w);
 
+/// An amplitude as the data alone have it, of one that a fit with prior and sigma holds back.
+struct DataAlone {
+  double off;     ///< from the mean of the prior, in the unit of what was given
+  double sigmas;  ///< the same over what prior and data let expect, sqrt(prior^2 + data's sigma^2)
+};
+/// off: of the fit, from the mean of the prior; sigma of the fit, smaller than the prior's. The
+/// data's information is 1/sigma^2 - 1/prior^2; whatever the other parameters are, a fit lies
+/// sqrt(prior^2 - sigma^2) from the mean where the prior is right.
+DataAlone without_prior(double off, double sigma, double prior_sigma);
+
 /// Log evidence of amplitudes with projected information C and gradient g (in prior sigmas) against
 /// none: log of the mean over scales s of exp(g' (1/s^2 + C)^-1 g / 2) / sqrt(det(1 + s^2 C)), and
 /// of amplitudes as found where a prior of one sigma does not explain them.

@@ -16,8 +16,7 @@
 namespace drift::search {
 namespace {
 
-using inference::EffortLimits;
-using inference::WeighLimits;
+using inference::EffortLimits, inference::FitLimits, inference::WeighLimits;
 
 /// Change of the log evidence if the amplitudes of the causes are of unknown size (size_prior.hpp).
 /// lambda is no amplitude: it lies between 0 and 1. library: the filter with the library's priors.
@@ -81,13 +80,13 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
   return out;
 }
 
-/// The filter with a prior as wide as each amplitude that is larger than its own.
+/// The filter with a prior as wide as each amplitude that is larger than its own; as the data alone
+/// have it where it lies beyond what its prior makes credible.
 struct Room {
   FilterSpec filter;
-  double farthest = 0.0;  ///< the largest of these amplitudes, in sigmas of its own prior
+  double farthest = 0.0;  ///< the largest of these amplitudes, in sigmas of what was to be expected
 };
-/// Nothing if none is. What a narrow prior holds back of a large effect its twins would take, and
-/// it is no second one: a prior cost of 36 at six sigma.
+/// Nothing if none is. What a prior holds back of a large effect its twins would take.
 std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
   std::optional<Room> room;
   for (const Choice& choice : r.choices)
@@ -95,11 +94,13 @@ std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, cons
       const ParameterEstimate* p = r.after.fit.estimate.find(i);
       if (i == closure_param || !p) continue;
       const Prior prior = r.filter.believed(i);
-      const double off = std::abs(p->value - prior.mean());
-      if (!(off > prior.sigma())) continue;
+      const double off = std::abs(p->value - prior.mean()), sigma = prior.sigma();
+      if (!(off > sigma) || !(p->sigma < sigma)) continue;
+      const auto alone = inference::without_prior(off, p->sigma, sigma);
       if (!room) room = {r.filter};
-      room->filter.priors[i] = normal(prior.mean(), off);
-      room->farthest = std::max(room->farthest, off / prior.sigma());
+      room->filter.priors[i] =
+          normal(prior.mean(), alone.sigmas > FitLimits::beyond_prior ? alone.off : off);
+      room->farthest = std::max(room->farthest, alone.sigmas);
     }
   return room;
 }
@@ -250,8 +251,7 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   if (room && out.excess > 0.0)
     look_at_rest(out, examine(room->filter, test, causes.fit, out.after.noise, &out.after), beside);
   judge(out, causes, beside);
-  if (sizes == Sizes::of_library || !room || room->farthest <= inference::FitLimits::beyond_prior)
-    return out;
+  if (sizes == Sizes::of_library || !room || room->farthest <= FitLimits::beyond_prior) return out;
   // Beyond what its prior makes credible at all a size may be what the test says.
   const BatchResult roomy =
       fit_batch_from(room->filter, test, theta_of(room->filter, causes.fit), causes.fit.psi0_l);

@@ -30,6 +30,11 @@ std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
   return std::nullopt;
 }
 
+/// Whether the plan tells already what was asked: that leaves the next step to others.
+bool asks_for_nothing(const Advice& a) {
+  return a.kind == Advice::Kind::told || a.kind == Advice::Kind::unlike;
+}
+
 /// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
 std::string next_step(const Diagnosis& d, bool off_zero) {
   if (labels_are_late(d))
@@ -44,7 +49,8 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (d.verdict == Verdict::ambiguous && remark_in<remark::TimesInstead>(d) != nullptr)
     return "Next: look up the sample interval of the log, before anything is added to the plan.";
-  if (!d.advice.empty()) return "Next: " + advice_in_brief(d.advice.front());
+  if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
+    return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
         "Next: {}identify with patched.toml, the study with the cause in its model{}.",
@@ -72,7 +78,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: more than one effect seems to be missing. Diagnose again with the first in the "
         "model: --set \"filter.{}.terms+={}\".",
         d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
-  return "";
+  return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice.front());
 }
 
 }  // namespace

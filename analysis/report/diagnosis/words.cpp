@@ -198,15 +198,15 @@ std::string held_out_sentence(const HeldOut& held) {
 }
 
 std::string held_out_text(const diagnosis::Diagnosis& d, bool several) {
-  constexpr double grown = 1.05;  // what an error may grow by unsaid
   const diagnosis::HeldOut& held = d.fit.held_out;
   if (held.folds.empty() && held.recordings.empty())
     return "nothing was held out of the fit to judge it";
   // The score weighs each error by how surely it was predicted; the errors themselves are not.
-  const bool some_grow = held.improves && d.has_patch &&
-                         std::ranges::any_of(d.errors, [](const diagnosis::ErrorOfKind& k) {
-                           return k.after > grown * k.before;
-                         });
+  const bool some_grow =
+      held.improves && d.has_patch &&
+      std::ranges::any_of(d.errors, [](const diagnosis::ErrorOfKind& k) {
+        return k.after > k.before && number_text(k.after, 3) != number_text(k.before, 3);
+      });
   return fmt::format("with {}, held-out {} are predicted {}{}", several ? "them" : "it",
                      d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better",
                      some_grow

@@ -22,6 +22,7 @@ struct Tally {
   const Pair* unclaimed = nullptr;   ///< of the parameter that is farthest off
   double times = 0.0;                ///< of its sigma
   const Pair* diverged = nullptr;    ///< of the most runs without an estimate
+  std::size_t pairs_diverged = 0;    ///< that have such runs
   const Pair* unlike = nullptr;      ///< the one with the largest innovations, of those too large
 };
 
@@ -56,11 +57,12 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
     tally.unclaimed = &pair;
     tally.times = off->times;
   }
-  if (const stats::Rate& diverged = filter.starts().front().diverged;
-      diverged.hits > 0 &&
-      (tally.diverged == nullptr ||
-       diverged.value() > first_start(results, *tally.diverged).diverged.value()))
-    tally.diverged = &pair;
+  if (const stats::Rate& diverged = filter.starts().front().diverged; diverged.hits > 0) {
+    ++tally.pairs_diverged;
+    if (tally.diverged == nullptr ||
+        diverged.value() > first_start(results, *tally.diverged).diverged.value())
+      tally.diverged = &pair;
+  }
   if (not_linear(results, pair) &&
       (tally.not_linear == nullptr ||
        sigmas_off(filter.starts().front()) > sigmas_off(first_start(results, *tally.not_linear))))
@@ -110,10 +112,11 @@ std::string unclaimed_text(const StudyResults& results, const Pair& pair) {
                      pair_in_words(results, pair));
 }
 
-std::string diverged_text(const StudyResults& results, const Pair& pair) {
-  return fmt::format(
-      "Up to {} of the runs diverged ({}): errors, coverage and NEES are of the others.",
-      rate_cell(first_start(results, pair).diverged).text, pair_in_words(results, pair));
+std::string diverged_text(const StudyResults& results, const Tally& t) {
+  return fmt::format("{}{} of the runs diverged ({}): errors, coverage and NEES are of the others.",
+                     t.pairs_diverged > 1 ? "Up to " : "",
+                     rate_cell(first_start(results, *t.diverged).diverged).text,
+                     pair_in_words(results, *t.diverged));
 }
 
 /// What makes sigmas too small where truths, noise and filter are alike, and what to do.
@@ -207,8 +210,7 @@ InBrief study_in_brief(const StudyResults& results) {
       brief.tone = Tone::bad;
     }
   for (const Tally* t : {&wrong, &incomplete, &right})
-    if (t->diverged != nullptr)
-      brief.more.add(Weight::doubtful, diverged_text(results, *t->diverged));
+    if (t->diverged != nullptr) brief.more.add(Weight::doubtful, diverged_text(results, *t));
   add_doubts(brief, results, right);
   if (lost > 0) {
     brief.more.add(

@@ -32,6 +32,18 @@ namespace {
 
 constexpr std::size_t most_words = 100;
 
+/// Three nines and more and no other digit but zeros behind the mark: -9999, 999.99, 99999.000.
+bool is_all_nines(std::string_view cell) {
+  const std::size_t first = cell.starts_with('-') || cell.starts_with('+') ? 1 : 0;
+  const std::size_t mark = std::min(cell.find_first_of(".,"), cell.size());
+  const auto only = [](std::string_view digits, char digit) {
+    return std::ranges::all_of(digits, [&](char c) { return c == digit; });
+  };
+  const std::string_view behind = cell.substr(std::min(mark + 1, cell.size()));
+  return mark >= first + 3 && only(cell.substr(first, mark - first), '9') &&
+         (only(behind, '9') || only(behind, '0'));
+}
+
 /// Counts what stands in the cells of a column.
 void look_at(GuessedColumn& column, std::string_view cell) {
   if (cell.empty()) return;
@@ -40,6 +52,12 @@ void look_at(GuessedColumn& column, std::string_view cell) {
   if (parsed.kind == ParsedCell::Kind::number && std::isfinite(parsed.value)) {
     column.low = column.numbers == 0 ? parsed.value : std::min(column.low, parsed.value);
     column.high = column.numbers == 0 ? parsed.value : std::max(column.high, parsed.value);
+    if (is_all_nines(cell)) {
+      if (column.nines.size() < most_words) column.nines.emplace(cell);
+    } else {
+      column.low_beside = std::min(column.low_beside, parsed.value);
+      column.high_beside = std::max(column.high_beside, parsed.value);
+    }
     if (column.numbers > 0 && parsed.value < column.last && column.back.first == column.back.second)
       column.back = {column.last, parsed.value};
     column.last = parsed.value;
@@ -274,6 +292,7 @@ GuessedFile guess_file(const std::string& path) {
   name_time_by_values(file);
   name_position_by_values(file);
   rows.by_numbers.name_channel(file);
+  leave_out_nines(file);
   const auto take_units_of = [&](std::string_view channels) {
     for (GuessedColumn& c : file.columns)
       if (c.unit.empty() && c.channel.starts_with(channels)) c.unit = guessed_unit_of(c, gravity);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <set>
 #include <string>
@@ -15,7 +16,11 @@ struct GuessedColumn {
   HeaderCell header;
   std::size_t numbers = 0, texts = 0;  ///< cells
   double low = 0.0, high = 0.0;        ///< of the numbers
-  std::vector<std::string> words;      ///< the first different texts, in order
+  /// Numbers of nothing but nines (-9999, 999.99), as loggers write what was not measured, as they
+  /// stand, and from where to where the others are.
+  std::set<std::string, std::less<>> nines;
+  double low_beside = HUGE_VAL, high_beside = -HUGE_VAL;
+  std::vector<std::string> words;  ///< the first different texts, in order
   std::string last_text;
   std::vector<std::size_t> text_rows;        ///< of the first stretches of one text, in order
   std::set<std::string, std::less<>> again;  ///< texts that stand again after another one

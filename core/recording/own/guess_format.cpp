@@ -98,6 +98,27 @@ std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) 
   return c.channel == "temperature" ? "" : "?";                // a covariate does without
 }
 
+void leave_out_nines(GuessedFile& file) {
+  constexpr double farther = 10.0;
+  for (GuessedColumn& c : file.columns) {
+    if (c.nines.empty() || !(c.low_beside <= c.high_beside) || c.channel == "time" ||
+        c.channel == "position" || c.header.name == file.format.counter ||
+        c.header.name == file.counter)
+      continue;
+    const double others = std::max(-c.low_beside, c.high_beside);
+    const auto far = [&](const std::string& cell) {
+      return std::abs(cell_number(cell)) > farther * others;
+    };
+    if (!std::ranges::all_of(c.nines, far)) continue;
+    c.low = c.low_beside;
+    c.high = c.high_beside;
+    for (const std::string& cell : c.nines)
+      if (const std::string number = fmt::format("{}", cell_number(cell));
+          std::ranges::find(file.format.missing, number) == file.format.missing.end())
+        file.format.missing.push_back(number);
+  }
+}
+
 std::string own_name(const GuessedColumn& c) {
   const auto in_file = c.header.unit ? parse_recording_unit(*c.header.unit) : std::nullopt,
              meant = parse_recording_unit(c.unit);

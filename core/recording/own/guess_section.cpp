@@ -105,8 +105,8 @@ std::vector<std::string> in_units_of(const GuessedFile& file, std::string_view c
 
 bool needs_section(const GuessedFile& file) {
   const RecordingFormat& f = file.format;
-  return !f.columns.empty() || !f.positions.empty() || !f.date.empty() || !f.counter.empty() ||
-         f.angles != AngleDigits::automatic;
+  return !f.columns.empty() || !f.positions.empty() || !f.missing.empty() || !f.date.empty() ||
+         !f.counter.empty() || f.angles != AngleDigits::automatic;
 }
 
 std::string recording_section(const GuessedFile& file) {
@@ -130,6 +130,9 @@ std::string recording_section(const GuessedFile& file) {
   if (f.angles != AngleDigits::automatic)
     out += fmt::format("angles  = {}  # by their digits: check\n",
                        quoted(std::string(name_in(angle_digits, f.angles))));
+  if (!f.missing.empty())
+    out += fmt::format("missing = [{}]  # far from all other numbers: check\n",
+                       fmt::join(f.missing, ", "));
   if (!f.date.empty()) out += fmt::format("date = {}\n", quoted(f.date));
   if (!f.counter.empty())
     out += fmt::format("counter = {}\ntick    = \"{}\"\nwrap    = {:.0f}\n", quoted(f.counter),

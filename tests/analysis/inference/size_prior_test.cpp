@@ -86,6 +86,17 @@ TEST(SizePrior, AFitUnderAWiderPriorHasTheSameEvidence) {
               log_evidence_of_sizes(MatX::Constant(1, 1, C), VecX::Constant(1, C * a)), 1e-9);
 }
 
+TEST(SizePrior, WithoutItsPriorAFitIsWhatTheDataSay) {
+  // 40 +- 4.5 of the data and a prior of 0 +- 5, combined and taken apart again.
+  constexpr double data = 40.0, s = 4.5, prior = 5.0;
+  const double variance = 1.0 / (1.0 / (s * s) + 1.0 / (prior * prior));
+  const double fit = variance * data / (s * s);
+  EXPECT_LT(fit, 5.0 * prior) << "held back to where its prior seems to explain it";
+  const DataAlone alone = without_prior(fit, std::sqrt(variance), prior);
+  EXPECT_NEAR(alone.off, data, 1e-12 * data);
+  EXPECT_NEAR(alone.sigmas, data / std::hypot(s, prior), 1e-12 * data);
+}
+
 TEST(SizePrior, WhatMayHaveBeenMadeSmallLosesNothingByBeingThere) {
   // Six amplitudes that a test sees to a thousandth of their prior, and does not find. As large as
   // their prior they would be a coincidence of 6 log(1000); of eight scales, the least of which it
