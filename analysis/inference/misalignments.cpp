@@ -15,18 +15,22 @@ bool is_misalignment(std::size_t param) {
 }
 
 double log_gain_of_misalignments(const Layout& layout, const Projector& projector) {
+  const Projector::Fit fit = projector.fit();
+  return log_gain_of_misalignments(layout, fit.x, fit.covariance);
+}
+
+double log_gain_of_misalignments(const Layout& layout, const VecX& x, const MatX& of_all) {
   std::vector<Eigen::Index> rows;
   for (std::size_t k = 0; k < layout.size(); ++k)
     if (is_misalignment(layout.params[k])) rows.push_back(static_cast<Eigen::Index>(k));
   if (rows.empty()) return 0.0;
-  const Projector::Fit fit = projector.fit();
-  MatX covariance = fit.covariance(rows, rows);
+  MatX covariance = of_all(rows, rows);
   if (const auto at = std::ranges::find(layout.params, closure_param); at != layout.params.end()) {
     const auto lambda = at - layout.params.begin();
-    const VecX with_lambda = fit.covariance(rows, lambda);
-    covariance -= with_lambda * with_lambda.transpose() / fit.covariance(lambda, lambda);
+    const VecX with_lambda = of_all(rows, lambda);
+    covariance -= with_lambda * with_lambda.transpose() / of_all(lambda, lambda);
   }
-  return log_gain_of_sizes_made_small(fit.x(rows), covariance);
+  return log_gain_of_sizes_made_small(x(rows), covariance);
 }
 
 }  // namespace drift::inference

@@ -18,5 +18,7 @@ bool is_misalignment(std::size_t param);
 /// lambda are not what a linear problem has where these end. layout: of the parameters of the
 /// linearised test.
 double log_gain_of_misalignments(const Layout& layout, const Projector& projector);
+/// The same of a fit: x and covariance in units of the priors, from their means; layout order.
+double log_gain_of_misalignments(const Layout& layout, const VecX& x, const MatX& covariance);
 
 }  // namespace drift::inference

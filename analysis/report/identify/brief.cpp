@@ -93,7 +93,45 @@ std::string smaller_text(const Judgement& j, const identification::Identificatio
                      "white");
 }
 
-std::string verdict_text(const Judgement& j, const identification::Identification& id) {
+std::string nearly_text(const std::vector<std::string>& filters) {
+  return fmt::format("the residuals of {} {} are not within the 95 % band of a right model",
+                     filters.size() == 1 ? "filter" : "filters", listed(filters, "and"));
+}
+
+/// "4,000 times as probable as six, which fits as well"
+std::string odds_text(const mc::Study& study, const identification::FavouredFilter& favoured) {
+  constexpr double most = 1e6;  // beyond it the number says nothing, and a Gaussian is none
+  const double odds = std::exp(favoured.log_odds);
+  std::vector<std::string> others;
+  for (const std::size_t k : favoured.others) others.push_back(study.filters[k].name);
+  return fmt::format("{} times as probable as {}{}, which fit{} as well",
+                     odds < most ? number_text(odds, 2) : "more than a million",
+                     listed(others, "and"), others.size() > 1 ? " together" : "",
+                     others.size() > 1 ? "" : "s");
+}
+
+/// Which filters to believe where others are not to be, and why.
+template <class JudgedAs>
+std::string believed_text(const mc::Study& study, const Judgement& j, JudgedAs&& judged_as) {
+  std::vector<std::string> who = j.good, why, nearly;
+  if (j.favoured) who = {study.filters[j.favoured->filter].name};
+  for (const std::string& name : who)
+    if (std::ranges::find(j.nearly, name) != j.nearly.end()) nearly.push_back(name);
+  why.push_back(!nearly.empty() ? nearly_text(nearly)
+                                : fmt::format("the residuals are what {}",
+                                              who.size() == 1 ? "it expects" : "they expect"));
+  if (j.favoured) why.push_back("it is " + odds_text(study, *j.favoured));
+  why.insert(why.end(), j.bad.begin(), j.bad.end());
+  return fmt::format("{} {}.",
+                     judged_as(fmt::format("Believe {}{}", listed(who, "and"),
+                                           nearly.size() < who.size() ? ""
+                                           : who.size() == 1          ? ", which fits nearly"
+                                                                      : ", which fit nearly")),
+                     fmt::join(why, "; "));
+}
+
+std::string verdict_text(const mc::Study& study, const Judgement& j,
+                         const identification::Identification& id) {
   std::vector<std::string> limits;
   for (const std::string& limit : {absent_text(id), absent_positions_text(id.absent_positions)})
     if (!limit.empty()) limits.push_back(limit);
@@ -131,13 +169,9 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
   if (!j.less_noise.empty())
     return fmt::format("{} {}", judged_as("Fits, with less noise than declared"),
                        smaller_text(j, id));
-  if (!j.bad.empty())
-    return fmt::format("{} the residuals are what it expects; {}.",
-                       judged_as("Believe " + listed(j.good, "and")), listed(j.bad, "and"));
+  if (!j.bad.empty() || j.favoured) return believed_text(study, j, judged_as);
   if (!j.nearly.empty())
-    return fmt::format("{} the residuals of {} {} are not within the 95 % band of a right model.",
-                       judged_as("Fits nearly"), j.nearly.size() == 1 ? "filter" : "filters",
-                       listed(j.nearly, "and"));
+    return fmt::format("{} {}.", judged_as("Fits nearly"), nearly_text(j.nearly));
   return fmt::format("{} the residuals are what {} {} expect{}.", judged_as("Fits"),
                      j.good.size() == 1 ? "filter" : "filters", listed(j.good, "and"),
                      j.good.size() == 1 ? "s" : "");
@@ -148,7 +182,7 @@ std::string verdict_text(const Judgement& j, const identification::Identificatio
 InBrief identification_in_brief(const mc::Study& study, const identification::Identification& id) {
   const Judgement j = judgement_of(study, id);
   InBrief brief;
-  brief.verdict = verdict_text(j, id);
+  brief.verdict = verdict_text(study, j, id);
   bool doubtful = j.wrong || !j.less_noise.empty() || !id.absent.empty() ||
                   !id.absent_positions.empty() || !id.off_zero.empty() || !id.spikes.empty();
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");

@@ -132,6 +132,8 @@ Json identification_document(const mc::Study& study, const identification::Ident
     f["counted_start"] = id.counted(summary).start + 1;
     const EstimateResult& counted = judged({study, id, summary});
     f["fit"] = fit_key(counted);
+    const auto evidence = identification::log_evidence(study, id, summary);
+    f["log_evidence"] = evidence ? Json(*evidence) : Json(nullptr);  // of two filters: log odds
     f["noise_of_declared"] =  // 1 sigma of all rows; null where it is not less than declared
         less_noise(counted) ? Json(identification::noise_of_declared(spec, id.counted(summary)))
                             : Json(nullptr);

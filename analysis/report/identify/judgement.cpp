@@ -44,12 +44,15 @@ std::string outside_text(const FilterView& v) {
 
 Judgement judgement_of(const mc::Study& study, const identification::Identification& id) {
   Judgement j;
-  for (const identification::FilterSummary& s : id.summaries) {
+  std::vector<std::size_t> good;
+  for (std::size_t which = 0; which < id.summaries.size(); ++which) {
+    const identification::FilterSummary& s = id.summaries[which];
     const FilterView v{study, id, s};
     if (!believed(v)) {
       j.bad.push_back(fmt::format("filter {} {}", v.spec().name, misfit_text(v)));
       continue;
     }
+    good.push_back(which);
     j.good.push_back(v.spec().name);
     const bool less = less_noise(judged(v));
     if (less)
@@ -66,9 +69,12 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
       const Worth worth = verdict_of(v, k).worth;
       j.wrong = j.wrong || worth == Worth::wrong;
-      j.unlearned = j.unlearned || worth == Worth::prior_only || worth == Worth::sum_only;
+      const bool lacking = worth == Worth::prior_only || worth == Worth::sum_only;
+      j.unlearned = j.unlearned || (lacking && s.filter == 0);
     }
   }
+  j.favoured = identification::favoured(study, id, good);
+  j.first_favoured = !j.favoured || j.favoured->filter == 0;
   if (j.less_noise.empty()) j.leave_more.clear();
   return j;
 }

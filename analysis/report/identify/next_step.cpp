@@ -1,3 +1,4 @@
+#include "analysis/identification/absent_channels.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/judgement.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
@@ -21,6 +22,17 @@ std::string covariates_to_rank_with(const mc::Study& study) {
   return all;
 }
 
+/// Instruments that no recording has, as a plan would be without them: " --set
+/// readout.gimbals=false".
+std::string absent_to_rank_with(const identification::Identification& id) {
+  std::string all;
+  for (const auto& [channels, key] : {std::pair{&accelerometer_channels, "accelerometers"},
+                                      std::pair{&gimbal_channels, "gimbals"}})
+    if (identification::lacks(id.absent, *channels))
+      all += fmt::format(" --set readout.{}=false", key);
+  return all;
+}
+
 }  // namespace
 
 std::string next_step(const mc::Study& study, const identification::Identification& id,
@@ -38,7 +50,7 @@ std::string next_step(const mc::Study& study, const identification::Identificati
         "Next: leave the isolated sample{} out (empty cells) and identify again; `driftscope "
         "diagnose` leaves {} out by itself.",
         id.spikes.size() == 1 ? "" : "s", id.spikes.size() == 1 ? "it" : "them");
-  if (!j.first_fits)
+  if (!j.first_fits || !j.first_favoured)
     return fmt::format(
         "Next: {}driftscope diagnose {} {} says what the first filter of the study lacks.",
         other_latitude(id) ? "correct the latitude by a map; then " : "", study_words(study),
@@ -53,11 +65,14 @@ std::string next_step(const mc::Study& study, const identification::Identificati
         "Next: driftscope diagnose {} {} says how large the noise of each instrument is: declare "
         "that in [readout] and identify again.",
         study_words(study), recordings);
+  if (j.unlearned && !id.absent_positions.empty())
+    return fmt::format("Next: record {} of the plan as well, and identify again.",
+                       positions_text(id.absent_positions));
   if (j.unlearned)
     return fmt::format(
-        "Next: driftscope rank {} --improve 3 proposes positions that show what this test does "
+        "Next: driftscope rank {}{} --improve 3 proposes positions that show what this test does "
         "not.{}",
-        study_words(study), covariates_to_rank_with(study));
+        study_words(study), absent_to_rank_with(id), covariates_to_rank_with(study));
   return "";
 }
 

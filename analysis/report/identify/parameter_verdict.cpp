@@ -8,6 +8,7 @@ namespace drift::report {
 namespace {
 
 constexpr double nothing_learned = 0.8;  // posterior over prior sigma
+constexpr double half_learned = 0.5;     // below it a parameter is known by itself
 constexpr double mostly = 0.5;           // of its variance
 constexpr double surely_wrong = 5.0;     // [sigma] off the truth: no right model is, in any of 100
 
@@ -45,7 +46,7 @@ ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {
     out.worth = Worth::prior_only;
   else if (std::isfinite(ratio) && start_verdict(ratio) == StartVerdict::depends_on_start)
     out.worth = Worth::start_dependent;
-  else if (share_of_sums(v, state, *p) > mostly)
+  else if (p->learning_ratio() > half_learned && share_of_sums(v, state, *p) > mostly)
     out.worth = Worth::sum_only;
   return out;
 }

@@ -36,12 +36,12 @@ constexpr std::size_t most_words = 100;
 bool is_all_nines(std::string_view cell) {
   const std::size_t first = cell.starts_with('-') || cell.starts_with('+') ? 1 : 0;
   const std::size_t mark = std::min(cell.find_first_of(".,"), cell.size());
-  const auto only = [](std::string_view digits, char digit) {
-    return std::ranges::all_of(digits, [&](char c) { return c == digit; });
+  const auto only = [](std::string_view digits) {
+    return digits.find_first_not_of('9') == std::string_view::npos;
   };
-  const std::string_view behind = cell.substr(std::min(mark + 1, cell.size()));
-  return mark >= first + 3 && only(cell.substr(first, mark - first), '9') &&
-         (only(behind, '9') || only(behind, '0'));
+  std::string_view behind = cell.substr(std::min(mark + 1, cell.size()));
+  behind = behind.substr(0, behind.find_last_not_of('0') + 1);
+  return mark >= first + 3 && only(cell.substr(first, mark - first)) && only(behind);
 }
 
 /// Counts what stands in the cells of a column.

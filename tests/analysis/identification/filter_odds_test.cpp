@@ -1,0 +1,102 @@
+// Which of several filters that fit one test is to be believed, by how probable they are.
+#include "analysis/identification/filter_odds.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "analysis/report/identify/sections.hpp"
+
+namespace drift::filter_odds_test {
+namespace {
+
+using identification::favoured;
+using identification::log_evidence;
+
+/// Six free positions under eq. (5) and filters a and b, each by its equation and further lines.
+mc::Study study(std::string_view a, std::string_view b, std::string_view more_a = "",
+                std::string_view more_b = "") {
+  const auto filter = [](char name, std::string_view equation, std::string_view more) {
+    return fmt::format(R"([[filter]]
+name = "{}"
+coupling = "{}"
+terms = ["fixed_drift", "g_drift", "gyro_misalignment", "accelerometer"]
+{}
+)",
+                       name, equation, more);
+  };
+  return mc::read_study_text(fmt::format(R"(schema = 1
+[site]
+latitude = "45 deg"
+[plan]
+preset = "six"
+dwell = "30 min"
+sample = "3 min"
+mode = "free"
+entry = "caged"
+[readout]
+accelerometer_noise = "10 ug"
+gimbal_noise = "10 arcsec"
+[truth]
+coupling = "eq5"
+terms = ["fixed_drift", "g_drift", "gyro_misalignment", "accelerometer"]
+{}{}[monte_carlo]
+runs = 1
+seed = 4
+)",
+                                         filter('a', a, more_a), filter('b', b, more_b)),
+                             "s.toml");
+}
+
+struct Identified {
+  mc::Study study;
+  identification::Identification id = identification::identify_simulated(study, 0, 1);
+
+  double evidence(std::size_t filter) const {
+    return log_evidence(study, id, id.summaries[filter]).value();
+  }
+  const ParameterEstimate& K0_x(std::size_t filter) const {
+    const EstimateResult& fit = id.counted(id.summaries[filter]).batch.estimate;
+    return *fit.find(TermLibrary::find_param("K0_x").value());
+  }
+};
+
+TEST(FilterOdds, APriorThatIsMovedCostsWhatItsDistanceFromTheDataDoes) {
+  // The data alone have x +- s, whatever else is fitted: the evidence goes as
+  // exp(-(x - m)^2 / 2 (S^2 + s^2)), and (x - m)^2 / (S^2 + s^2) is that of the fit over S^2 less
+  // its variance. K0 is linear.
+  const Identified i{study("eq5", "eq5", "parameters.K0_x = { normal = [\"0 ug\", \"100 ug\"] }",
+                           "parameters.K0_x = { normal = [\"400 ug\", \"100 ug\"] }")};
+  const auto cost = [&](std::size_t filter) {
+    const ParameterEstimate& p = i.K0_x(filter);
+    return std::pow(p.value - p.prior_mean, 2) /
+           (std::pow(p.prior_sigma, 2) - std::pow(p.sigma, 2));
+  };
+  const double expected = -0.5 * (cost(0) - cost(1));
+  ASSERT_GT(std::abs(expected), 1.0);
+  EXPECT_NEAR(i.evidence(0) - i.evidence(1), expected, 1e-3 * std::abs(expected));
+}
+
+TEST(FilterOdds, FiltersThatSayTheSameAreAsProbable) {
+  const Identified i{study("eq5", "eq5")};
+  EXPECT_NEAR(i.evidence(0), i.evidence(1), 1e-9 * std::abs(i.evidence(0)));
+  EXPECT_FALSE(favoured(i.study, i.id, {0, 1}));
+  EXPECT_FALSE(favoured(i.study, i.id, {0})) << "there is nothing to choose";
+}
+
+TEST(FilterOdds, OfTwoThatFitTheMoreProbableIsBelieved) {
+  for (const bool first : {true, false}) {
+    const Identified i{first ? study("eq5", "eq6") : study("eq6", "eq5")};
+    const auto one = favoured(i.study, i.id, {0, 1});
+    ASSERT_TRUE(one) << i.evidence(0) << " " << i.evidence(1);
+    EXPECT_EQ(one->filter, first ? 0u : 1u);
+    EXPECT_NEAR(one->log_odds, std::abs(i.evidence(0) - i.evidence(1)), 1e-9);
+    const report::InBrief brief = report::identification_in_brief(i.study, i.id);
+    EXPECT_EQ(brief.verdict.find(first ? "Believe a: " : "Believe b: "), 0u) << brief.verdict;
+    if (!first) {
+      EXPECT_NE(brief.next.find("diagnose"), std::string::npos) << brief.next;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace drift::filter_odds_test
