@@ -85,10 +85,6 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
                       study.path, filter.name));
     groups.push_back(std::move(group));
   }
-  for (RankingGroup& g : groups)  // of two filters, eq. (5) first
-    if (g.models.size() == 2 && g.models[0].of_the_file() && g.models[1].of_the_file() &&
-        g.models[0].model.spec.coupling == Coupling::eq6)
-      std::swap(g.models[0], g.models[1]);
   return groups;
 }
 

@@ -37,12 +37,12 @@ struct ModelRanking {
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.
 struct RankingGroup {
   std::string filters;               ///< names in the file, of all
-  std::vector<ModelRanking> models;  ///< the filter's own (of several: eq. (5)) first
+  std::vector<ModelRanking> models;  ///< that of the first filter first
 
   const Layout& layout() const { return models.front().ranking.layout; }
 };
 
-/// A better plan for the first model of the first group.
+/// A better plan for the first filter: the first model of the first group.
 struct PlanImprovement {
   Improvement improvement;
   observability::Ranking after;      ///< of the improved plan
@@ -72,7 +72,7 @@ struct RankOptions {
 /// What a better plan of the study should make small, by its name. InputError as rank_plan().
 Criterion criterion_of(const mc::Study& study, const std::string& name);
 
-/// A better plan for the first model that rank_plan() ranks, judged by `judge`; nothing if that
+/// A better plan for the first filter, as rank_plan() finds it, judged by `judge`; nothing if that
 /// ended before. InputError as rank_plan().
 std::optional<Improvement> improve_study(const mc::Study& study, const RankOptions& options,
                                          const JudgeStep& judge,

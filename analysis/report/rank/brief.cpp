@@ -61,12 +61,17 @@ bool gains(const planning::PlanRanking& rank) {
   return true;
 }
 
+/// What is ranked, and for whom: "eq5 (filter corrected)".
+std::string model_text(const planning::ModelRanking& m) {
+  return fmt::format("{} (filter {})", key_of(m.model.spec.coupling), m.filters);
+}
+
 /// What the proposed positions do to the parameter that gains most, or that was asked for.
 std::string gain_text(const planning::PlanRanking& rank) {
   const planning::Improvement& better = rank.better->improvement;
   if (better.steps.empty()) return "A better plan: the gimbals allow no further position.";
-  const observability::Ranking &before = rank.groups.front().models.front().ranking,
-                               &after = rank.better->after;
+  const planning::ModelRanking& first = rank.groups.front().models.front();
+  const observability::Ranking &before = first.ranking, &after = rank.better->after;
   const auto gain = [&](std::size_t k) {
     return before.learning_ratio(k) / after.learning_ratio(k);
   };
@@ -89,11 +94,10 @@ std::string gain_text(const planning::PlanRanking& rank) {
   }
   if (!gains(rank)) {
     const std::size_t k = asked.front();
-    const bool product =
-        rank.groups.front().models.front().elsewhere[k].other_than(before.learning_ratio(k));
+    const bool product = first.elsewhere[k].other_than(before.learning_ratio(k));
     return fmt::format(
-        "No better plan was found for {}: {} further position{} bring{} {}. {}",
-        better.criterion.text, better.steps.size(), plural(better.steps.size()),
+        "No better plan was found for {} under {}: {} further position{} bring{} {}. {}",
+        better.criterion.text, model_text(first), better.steps.size(), plural(better.steps.size()),
         better.steps.size() == 1 ? "s" : "", listed(parts, "and"),
         product ? "It is in a product that is not seen where the plan is linearised: give the "
                   "numbers of the others in [truth.parameters], and it is linearised there."
@@ -103,8 +107,8 @@ std::string gain_text(const planning::PlanRanking& rank) {
   const std::string judged = better.criterion.kind == Kind::A ? "over all parameters (criterion A)"
                              : better.criterion.kind == Kind::D ? "in bits (criterion D)"
                                                                 : "for " + better.criterion.text;
-  return fmt::format("A better plan, {}: {} further position{} ({} h) bring{} {}.", judged,
-                     better.steps.size(), plural(better.steps.size()),
+  return fmt::format("A better plan under {}, {}: {} further position{} ({} h) bring{} {}.",
+                     model_text(first), judged, better.steps.size(), plural(better.steps.size()),
                      number_text(better.added() / 3600.0), better.steps.size() == 1 ? "s" : "",
                      listed(parts, "and"));
 }
@@ -118,8 +122,7 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
   for (const planning::RankingGroup& g : rank.groups)
     for (const planning::ModelRanking& m : g.models) {
       if (!m.of_the_file()) continue;
-      const std::string said =
-          fmt::format("{} (filter {}): {}", key_of(m.model.spec.coupling), m.filters, seen_text(m));
+      const std::string said = fmt::format("{}: {}", model_text(m), seen_text(m));
       if (brief.verdict.empty())
         brief.verdict = "Seen under " + said;
       else
