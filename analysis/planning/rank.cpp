@@ -88,16 +88,36 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
   return groups;
 }
 
-/// Where parameters multiply (misalignment times drift), the mean of the prior may be a special
-/// point: the information at truths drawn from it says so.
+/// What may be true of the parameters of a model: what [truth] says of those that it has (a number
+/// is one truth alone), the filter's priors of the others. lambda is that of the truth's coupling.
+ModelSpec open_to_truth(const mc::Study& study, const observability::RankedModel& model) {
+  ModelSpec open = model.spec;
+  if (!study.has_truth) return open;
+  const TruthSpec& truth = study.truth;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (open.active[i] && truth.active[i] && open.priors[i].sigma() > 0.0)
+      open.priors[i] = truth.priors[i];
+  if (open.active[closure_param] && facts(facts(truth.coupling).settles_to).lambda)
+    open.priors[closure_param] = fixed(model.nominal[closure_param]);
+  return open;
+}
+
+/// Where parameters multiply (misalignment times drift), the point where the plan is linearised may
+/// be a special one: the information at truths that are drawn says so. Where none is open there is
+/// nothing to draw.
 std::vector<Elsewhere> ranges_elsewhere(const mc::Study& study, const TestPlan& plan,
                                         const observability::RankedModel& model) {
   constexpr std::uint64_t draws = 4;
-  std::vector<Elsewhere> ranges(make_layout(model.spec).size(),
-                                {std::numeric_limits<double>::infinity(), 0.0});
+  const Layout layout = make_layout(model.spec);
+  std::vector<Elsewhere> ranges(layout.size());
+  const ModelSpec open = open_to_truth(study, model);
+  if (std::ranges::all_of(layout.params,
+                          [&](std::size_t i) { return open.priors[i].sigma() == 0.0; }))
+    return ranges;
+  std::ranges::fill(ranges, Elsewhere{std::numeric_limits<double>::infinity(), 0.0});
   for (std::uint64_t k = 0; k < draws; ++k) {
     observability::RankedModel drawn = model;
-    drawn.nominal = draw_parameters(model.spec, study.monte_carlo.seed, k, Purpose::parameters);
+    drawn.nominal = draw_parameters(open, study.monte_carlo.seed, k, Purpose::parameters);
     const std::vector<double> ratios = observability::learning_at_truth(plan, drawn);
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       ranges[i].low = std::min(ranges[i].low, ratios[i]);

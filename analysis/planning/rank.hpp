@@ -12,11 +12,15 @@
 
 namespace drift::planning {
 
-/// Learning ratios of a parameter at other points than the one the plan is linearised at.
+/// Learning ratios of a parameter at other points than the one the plan is linearised at: at four
+/// truths drawn from what [truth] leaves open, without one from the priors.
 struct Elsewhere {
   static constexpr double factor = 1.5;  ///< between ratios: worth a line
   double low = 0.0, high = 0.0;
-  bool other_than(double here) const { return high >= factor * here || low <= here / factor; }
+  bool drawn() const { return high > 0.0; }  ///< not where [truth] fixes every parameter
+  bool other_than(double here) const {
+    return drawn() && (high >= factor * here || low <= here / factor);
+  }
 };
 
 /// The ranking of a plan under one model, by every method.
@@ -31,7 +35,7 @@ struct ModelRanking {
   observability::PwcsRank pwcs;
   std::vector<observability::MethodRanking> methods;
   observability::Drivers drivers;
-  std::vector<Elsewhere> elsewhere;  ///< of each state, at four truths drawn from the priors
+  std::vector<Elsewhere> elsewhere;  ///< of each state
 };
 
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.

@@ -152,6 +152,8 @@ def of_ranking(name, answer):
                 yield Number(f"{at}.null_direction{k}", direction["combination"], "word")
             for p in sorted(model["parameters"], key=lambda p: p["key"]):
                 yield Number(f"{at}.{p['key']}.sigma", real(p["posterior_sigma"]), "sigma", p["unit"])
+                if p["learning_ratio_at_drawn_truths"] is None:  # [truth] leaves nothing open
+                    continue
                 low, high = p["learning_ratio_at_drawn_truths"]
                 yield Number(f"{at}.{p['key']}.left_at_drawn_truths.low", real(low), "sigma", "1")
                 yield Number(f"{at}.{p['key']}.left_at_drawn_truths.high", real(high), "sigma", "1")

@@ -38,6 +38,7 @@ Section equations(const RankedGroup& v) {
 Section elsewhere(const RankedGroup& v) {
   Section section;
   for (const planning::ModelRanking& m : v.group.models) {
+    if (std::ranges::none_of(m.elsewhere, &planning::Elsewhere::drawn)) continue;
     Table t(
         fmt::format("Where the promise depends on the truth, {}", key_of(m.model.spec.coupling)),
         "<parameter | left, as ranked | <left, at four drawn truths",

@@ -100,7 +100,9 @@ Json improvement_json(const mc::Study& study, const planning::PlanRanking& rank)
         {"unit", parameter_unit(param)},
         {"before", before.parameters[k].posterior_sigma / unit},
         {"after", rank.better->after.parameters[k].posterior_sigma / unit},
-        {"after_elsewhere", Json::array({prior * elsewhere.low, prior * elsewhere.high})}};
+        {"after_elsewhere", elsewhere.drawn()
+                                ? Json::array({prior * elsewhere.low, prior * elsewhere.high})
+                                : Json(nullptr)}};
   }
   return {{"criterion", better.criterion.text},
           {"coupling", equation_of_plan(rank)},

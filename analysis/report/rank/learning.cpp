@@ -67,19 +67,22 @@ Table ranking_table(const planning::ModelRanking& m, const planning::ModelRankin
     const std::size_t k = r.order[i];
     const observability::ParameterRank& p = r.parameters[k];
     const double unit = unit_of(p.param);
-    std::vector<Cell> row{i + 1,
-                          parameter_cell(p.param),
-                          parameter_unit(p.param),
-                          m.model.nominal[p.param] / unit,
-                          p.prior_sigma / unit,
-                          p.posterior_sigma / unit,
-                          ratio_cell(p.learning_ratio()),
-                          only_value(std::vector{m.elsewhere[k].low, m.elsewhere[k].high}),
-                          p.conditional_sigma / unit,
-                          p.collinearity(),
-                          decimals(p.bits(), 1),
-                          text_or_nothing(p.partner == k ? "" : parameter_key(r.layout, p.partner)),
-                          p.correlation};
+    std::vector<Cell> row{
+        i + 1,
+        parameter_cell(p.param),
+        parameter_unit(p.param),
+        m.model.nominal[p.param] / unit,
+        p.prior_sigma / unit,
+        p.posterior_sigma / unit,
+        ratio_cell(p.learning_ratio()),
+        only_value(m.elsewhere[k].drawn()
+                       ? Value(std::vector{m.elsewhere[k].low, m.elsewhere[k].high})
+                       : Value()),
+        p.conditional_sigma / unit,
+        p.collinearity(),
+        decimals(p.bits(), 1),
+        text_or_nothing(p.partner == k ? "" : parameter_key(r.layout, p.partner)),
+        p.correlation};
     if (other) {
       const observability::ParameterRank& q = other->ranking.parameters[k];
       row.insert(row.end(), {q.posterior_sigma / unit, ratio_cell(q.learning_ratio())});

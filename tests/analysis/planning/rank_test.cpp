@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace drift::rank_test {
@@ -55,6 +56,66 @@ TEST(RankPlan, ChoosesPositionsForTheFirstFilterWhicheverItsEquation) {
     const double other =
         rank.groups.front().models[1].ranking.learning_ratio(better.criterion.state);
     EXPECT_GT(std::abs(other - ratio), 1e-3 * ratio);
+  }
+}
+
+/// Two cagings in free drift under eq. (6), where misalignments are seen by the drift they turn.
+std::string caged_twice(const std::string& coupling, const std::string& truth) {
+  return R"(schema = 1
+[site]
+latitude = "45.75 deg"
+[plan]
+dwell  = "60 min"
+sample = "10 min"
+mode   = "free"
+[[plan.position]]
+axes = "x=N y=W z=U"
+[[plan.position]]
+axes = "x=N y=U z=E"
+[truth]
+terms = ["D_F", "D_I_z", "eta_x", "xi_y"]
+)" + truth +
+         "[[filter]]\nname = \"f\"\ncoupling = \"" + coupling +
+         "\"\nterms = [\"D_F\", \"D_I_z\", \"eta_x\", \"xi_y\"]\n";
+}
+
+planning::ModelRanking ranked(const std::string& study) {
+  return planning::rank_plan(mc::read_study_text(study, "s.toml"),
+                             {.threads = 1, .bins_per_dwell = 1})
+      .groups.front()
+      .models.front();
+}
+
+TEST(RankPlan, DrawsTruthsFromWhatTheTruthLeavesOpenAlone) {
+  // What shows eta_x is D_I_z times it. Where D_I_z is a number, what is left of eta_x (prior sigma
+  // 200 arcsec, 1e-3) is the same at every truth to some 1e-3.
+  const auto fixed_drift = ranked(caged_twice("eq6",
+                                              "coupling = \"eq6\"\n[truth.parameters]\n"
+                                              "D_I_z = \"2 deg/h/g\"\nD_F = \"0 deg/h\"\n"));
+  for (std::size_t k = 0; k < fixed_drift.elsewhere.size(); ++k) {
+    const double here = fixed_drift.ranking.learning_ratio(k);
+    EXPECT_NEAR(fixed_drift.elsewhere[k].low, here, 0.02 * here);
+    EXPECT_NEAR(fixed_drift.elsewhere[k].high, here, 0.02 * here);
+    EXPECT_TRUE(fixed_drift.elsewhere[k].drawn());
+  }
+  const auto open_drift = ranked(caged_twice("eq6", "coupling = \"eq6\"\n"));
+  const Layout& layout = open_drift.ranking.layout;
+  const auto eta_x = static_cast<std::size_t>(
+      std::ranges::find(layout.params, TermLibrary::index("eta_x")) - layout.params.begin());
+  ASSERT_LT(eta_x, layout.size());
+  EXPECT_TRUE(open_drift.elsewhere[eta_x].other_than(open_drift.ranking.learning_ratio(eta_x)));
+}
+
+TEST(RankPlan, KnowsNoOtherTruthWhereTheTruthIsNumbersAndAnEquation) {
+  const std::string numbers =
+      "coupling = \"eq5\"\n[truth.parameters]\nD_F = \"1 deg/h\"\nD_I_z = \"2 deg/h/g\"\n"
+      "eta_x = \"100 arcsec\"\nxi_y = \"-50 arcsec\"\n";
+  for (const char* coupling : {"eq5", "lambda"}) {
+    const planning::ModelRanking m = ranked(caged_twice(coupling, numbers));
+    for (std::size_t k = 0; k < m.elsewhere.size(); ++k) {
+      EXPECT_FALSE(m.elsewhere[k].drawn());
+      EXPECT_FALSE(m.elsewhere[k].other_than(m.ranking.learning_ratio(k)));
+    }
   }
 }
 
