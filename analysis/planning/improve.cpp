@@ -53,6 +53,13 @@ Criterion parse_criterion(const std::string& text, const Layout& layout) {
     keys.push_back(TermLibrary::specs[layout.params[k]].key.view());
     if (keys.back() == text) return {Criterion::Kind::parameter, k, text};
   }
+  if (TermLibrary::find(text))
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("--criterion {}: the filter does not estimate it (expected A, D or a parameter "
+                    "that it estimates). Name another, or let the filter estimate it: by a term "
+                    "that has it and a prior that is no number",
+                    text));
   throw InputError(ExitCode::usage,
                    fmt::format("--criterion {}: unknown (expected A, D or a parameter that the "
                                "filter estimates). {}",

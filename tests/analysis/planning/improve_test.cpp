@@ -128,8 +128,23 @@ TEST(Improve, AnUnknownCriterionNamesTheNearest) {
     EXPECT_EQ(e.code(), ExitCode::usage);
     EXPECT_NE(std::string(e.what()).find("eta_"), std::string::npos) << e.what();
   }
-  EXPECT_THROW(planning::parse_criterion("lambda", layout),
-               InputError);  // known, but no state here
+}
+
+TEST(Improve, ACriterionThatIsNoStateIsSaidToBeKnown) {
+  ModelSpec spec = base_spec(Coupling::eq5);  // which has no lambda
+  spec.priors[param("eta_x")] = fixed(100.0 * arcsec);
+  for (const char* key : {"eta_x", "lambda"}) {
+    try {
+      planning::parse_criterion(key, make_layout(spec));
+      FAIL() << key;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.code(), ExitCode::usage);
+      const std::string said = e.what();
+      EXPECT_NE(said.find("the filter does not estimate it"), std::string::npos) << said;
+      EXPECT_EQ(said.find("unknown"), std::string::npos) << said;
+      EXPECT_EQ(said.find("Did you mean"), std::string::npos) << said;
+    }
+  }
 }
 
 }  // namespace
