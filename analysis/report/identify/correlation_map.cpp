@@ -32,12 +32,17 @@ HeatMap map_of(const MatX& correlation, const Layout& layout,
   return map;
 }
 
-std::string said_of_pairs(const std::vector<CorrelatedPair>& pairs, const Layout& layout) {
+/// Of many parameters that are tied no two need be.
+std::string said_of_pairs(const std::vector<CorrelatedPair>& pairs, const FilterView& v) {
+  const Layout& layout = v.summary.layout;
   const auto tied = std::ranges::count_if(
       pairs, [](const CorrelatedPair& p) { return std::abs(p.correlation) > worth_saying; });
   if (tied == 0)
-    return fmt::format("No two parameters are correlated by more than {}: each is known by itself.",
-                       worth_saying);
+    return fmt::format("No two parameters are correlated by more than {}{}.", worth_saying,
+                       v.summary.unseen.empty()
+                           ? ""
+                           : fmt::format("; of {} directions of the parameters {}", layout.size(),
+                                         unseen_text(v.summary.unseen, root_of(v))));
   std::vector<std::string> first;
   for (std::size_t k = 0; k < std::min<std::size_t>(most_pairs, static_cast<std::size_t>(tied));
        ++k)
@@ -100,7 +105,7 @@ Section correlations(const FilterView& v) {
                  fmt::format("Posterior correlations, {} from start {}. ±1: only a combination is "
                              "known.{}",
                              batch ? "batch fit" : "EKF", run.start + 1, chosen)),
-       Paragraph{said_of_pairs(pairs, v.summary.layout)}},
+       Paragraph{said_of_pairs(pairs, v)}},
       On::page};
 }
 

@@ -54,6 +54,21 @@ TEST(CorrelationMap, ShowsTheStrongestAndSaysThem) {
                                   parameter_key(view.summary.layout, 7))),
             std::string::npos)
       << said;
+  // Uncorrelated, but one sum is not seen: no parameter is said to be known by itself.
+  for (auto& run : id.runs) {
+    run.batch.estimate.covariance = MatX::Identity(n, n);
+    run.batch.information_root = MatX::Identity(n, n);
+    run.batch.information_root(0, 0) = 0.0;
+  }
+  id.summaries[0].unseen = {{0.0, VecX::Unit(n, 0)}};
+  EXPECT_EQ(
+      std::get<Paragraph>(correlations(view).blocks[1].content).text,
+      fmt::format("No two parameters are correlated by more than 0.9; of {} directions of the "
+                  "parameters 1 is not seen at all.",
+                  n));
+  id.summaries[0].unseen.clear();
+  EXPECT_EQ(std::get<Paragraph>(correlations(view).blocks[1].content).text,
+            "No two parameters are correlated by more than 0.9.");
   for (auto& run : id.runs) run.batch.estimate.covariance.resize(0, 0);
   EXPECT_TRUE(correlations(view).blocks.empty());  // it failed before there was one
 }
