@@ -180,6 +180,7 @@ void name_further(std::vector<NamedDirection>& all, Echelon& echelon, const Writ
     const bool single = one.reason.empty();
     if (single != (direction.parts.size() == 1)) continue;  // it takes less, or more
     if (!single) direction.reason = one.reason;
+    direction.anywhere = one.anywhere;
     (single ? others : all).push_back(std::move(direction));
     echelon.add(further, pivot);
   }

@@ -19,6 +19,7 @@ struct NamedDirection {
   std::vector<Part> parts;  ///< in library order; the first counts 1
   std::string combination;  ///< "D_F_x - D_II_x - D_OO_x - D_SS_x"
   std::string reason;       ///< in words, where physics.md 2.4 knows it; else empty
+  bool anywhere = false;    ///< whether by that reason no position of a laboratory shows it
   /// What one prior sigma along it, as it is written, leaves in the data [sigma]; 0 if nothing but
   /// rounding.
   double signal = 0.0;

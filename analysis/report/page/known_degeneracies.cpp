@@ -99,7 +99,7 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
       Direction sum(layout);
       sum.add(constant, i, 1.0);
       for (const char* square : squares) sum.add(square, i, -1.0);  // per g^2
-      if (sum.complete()) all.push_back({sum.scaled(), words, exact});
+      if (sum.complete()) all.push_back({sum.scaled(), words, exact, true});
     }
   };
   add_squares("D_F", {"D_II", "D_OO", "D_SS"},
@@ -136,7 +136,7 @@ std::vector<KnownDegeneracy> known_degeneracies(const Layout& layout, const Moun
           {gauge.scaled(),
            "gauge: a common small rotation of gyro triad, accelerometer triad and initial "
            "attitude; only gimbal readings or a convention fix the platform axes",
-           0.05});
+           0.05, true});
   }
   return all;
 }

@@ -11,9 +11,10 @@ namespace drift::report {
 
 /// A combination of parameters that some tests cannot see: a parameter alone, or by physics.md 2.4.
 struct KnownDegeneracy {
-  VecX direction;      ///< over the prior-scaled parameters, layout order
-  std::string reason;  ///< empty of a parameter alone: no_signal_reason()
-  double tolerance;    ///< length of the unit direction's part that may lie outside the space
+  VecX direction;         ///< over the prior-scaled parameters, layout order
+  std::string reason;     ///< empty of a parameter alone: no_signal_reason()
+  double tolerance;       ///< length of the unit direction's part that may lie outside the space
+  bool anywhere = false;  ///< whether no position of a laboratory shows it
 };
 
 /// All whose parameters are in the layout, those alone first. Whether a test has them is for its

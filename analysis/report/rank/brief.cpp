@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "analysis/report/page/study_words.hpp"
@@ -8,9 +9,96 @@ namespace {
 
 constexpr double half_known = 0.5, hardly_known = 0.9;  // of the prior sigma
 
+/// A model of the file, and what its test does not see.
+struct Seen {
+  const planning::ModelRanking& model;
+  std::vector<NamedDirection> unseen;
+
+  bool whole() const {
+    return unseen.empty() && std::ranges::none_of(model.ranking.parameters, [](const auto& p) {
+             return p.learning_ratio() > hardly_known;
+           });
+  }
+};
+
+std::vector<Seen> seen_by(const planning::PlanRanking& rank) {
+  std::vector<Seen> all;
+  for (const planning::RankingGroup& g : rank.groups)
+    for (const planning::ModelRanking& m : g.models)
+      if (m.of_the_file()) all.push_back({m, unseen_directions(m)});
+  return all;
+}
+
+/// Combinations of one reason: "3 combinations are not seen, and no position shows them: D_F_x -
+/// D_II_x - ... (fixed drift with ...)".
+std::string combinations_text(const std::vector<NamedDirection>& directions) {
+  constexpr std::size_t most = 3;
+  const bool one = directions.size() == 1;
+  const NamedDirection& first = directions.front();
+  std::vector<std::string> names;
+  for (const NamedDirection& d : directions) names.push_back(d.combination);
+  return fmt::format("; {} combination{} not seen{}: {}{}", names.size(), one ? " is" : "s are",
+                     first.reason.empty() ? ", for no known reason"
+                     : !first.anywhere    ? ""
+                     : one                ? ", and no position shows it"
+                                          : ", and no position shows them",
+                     listed_up_to(names, most),
+                     first.reason.empty() ? "" : fmt::format(" ({})", first.reason));
+}
+
+/// Of all directions those of more than one parameter; the others are named as parameters.
+std::string combinations_of(const std::vector<NamedDirection>& directions) {
+  std::vector<std::vector<NamedDirection>> of_reason;
+  for (const NamedDirection& d : directions) {
+    if (d.parts.size() == 1) continue;
+    const auto known = std::ranges::find_if(
+        of_reason, [&](const auto& group) { return group.front().reason == d.reason; });
+    if (known == of_reason.end())
+      of_reason.push_back({d});
+    else
+      known->push_back(d);
+  }
+  std::string said;
+  for (const auto& group : of_reason) said += combinations_text(group);
+  return said;
+}
+
+/// What is left of each prior sigma if positions show all that a position can: its part along the
+/// directions that none shows.
+VecX left_by_all_positions(const Seen& s) {
+  const Layout& layout = s.model.ranking.layout;
+  const auto n = static_cast<Eigen::Index>(layout.size());
+  MatX hidden = MatX::Zero(n, std::ranges::count_if(s.unseen, &NamedDirection::anywhere));
+  Eigen::Index column = 0;
+  for (const NamedDirection& d : s.unseen) {
+    if (!d.anywhere) continue;
+    for (const NamedDirection::Part& part : d.parts) {
+      const auto k = std::ranges::find(layout.params, part.param) - layout.params.begin();
+      hidden(k, column) = part.coefficient * unit_of(part.param) / layout.sigma[k];
+    }
+    ++column;
+  }
+  if (column == 0) return VecX::Zero(n);
+  const MatX basis = MatX(hidden.householderQr().householderQ() * MatX::Identity(n, hidden.cols()));
+  return basis.rowwise().norm();
+}
+
+/// Whether what is not seen, or hardly, may be at other positions.
+bool positions_may_help(const Seen& s) {
+  if (!std::ranges::all_of(s.unseen, &NamedDirection::anywhere)) return true;
+  const VecX left = left_by_all_positions(s);
+  for (std::size_t k = 0; k < s.model.ranking.parameters.size(); ++k)
+    if (s.model.ranking.learning_ratio(k) > hardly_known &&
+        left[static_cast<Eigen::Index>(k)] <= hardly_known)
+      return true;
+  return false;
+}
+
 /// "14 of 18 parameters end below half their prior sigma; hardly seen: eta_y, xi_x (...)".
 /// Those that a product hides where the plan is linearised alone are told apart.
-std::string seen_text(const planning::ModelRanking& m) {
+/// `said_before`: of the combinations of another model, which are not said twice.
+std::string seen_text(const Seen& s, const std::string& said_before) {
+  const planning::ModelRanking& m = s.model;
   constexpr std::size_t most = 8;
   const observability::Ranking& r = m.ranking;
   std::vector<std::string> unseen, hidden;
@@ -28,7 +116,7 @@ std::string seen_text(const planning::ModelRanking& m) {
   }
   std::string said = fmt::format("{} of {} parameters end below half their prior sigma", known,
                                  r.parameters.size());
-  if (unseen.empty() && hidden.empty()) return said + "; every one is seen.";
+  if (s.whole()) return said + "; every one is seen.";
   if (!unseen.empty())
     said += fmt::format("; hardly or not seen, at least 90 % of the prior sigma is left: {}",
                         listed_up_to(unseen, most));
@@ -37,7 +125,10 @@ std::string seen_text(const planning::ModelRanking& m) {
         "; not seen where the plan is linearised, but at truths drawn from the priors (what is "
         "left of the prior sigma at four): {}",
         listed_up_to(hidden, most));
-  return said + ".";
+  const std::string combinations = combinations_of(s.unseen);
+  if (!combinations.empty() && combinations == said_before)
+    return said + "; the same combinations are not seen.";
+  return said + combinations + ".";
 }
 
 /// What a sigma is where the truth lies elsewhere, if that is something else.
@@ -113,40 +204,49 @@ std::string gain_text(const planning::PlanRanking& rank) {
                      listed(parts, "and"));
 }
 
+/// What to do about what is not seen.
+std::string next_text(const mc::Study& study, const planning::PlanRanking& rank,
+                      const std::vector<Seen>& seen) {
+  const std::string fix =
+      "of a combination that no position shows, fix one parameter or declare its prior";
+  const bool any_hidden = std::ranges::any_of(
+      seen, [](const Seen& s) { return std::ranges::any_of(s.unseen, &NamedDirection::anywhere); });
+  std::string next;
+  if (rank.better && gains(rank))
+    next = study.plan.preset.empty()
+               ? "put the positions of proposed_positions.toml behind the last "
+                 "[[plan.position]] of the study"
+               : "put the positions of proposed_positions.toml, which are all of the plan, in "
+                 "the place of the study's plan.preset";
+  else if (!rank.better && std::ranges::any_of(seen, positions_may_help))
+    next =
+        fmt::format("driftscope rank {} --improve 3 proposes positions to add", study_words(study));
+  if (any_hidden) next += (next.empty() ? "" : "; ") + fix;
+  return next.empty() ? "" : fmt::format("Next: {}.", next);
+}
+
 }  // namespace
 
 InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank) {
   InBrief brief;
-  brief.tone = Tone::good;
+  const std::vector<Seen> seen = seen_by(rank);
+  brief.tone = std::ranges::all_of(seen, &Seen::whole) ? Tone::good : Tone::doubtful;
   if (rank.better) brief.more.add(Weight::note, gain_text(rank));
-  for (const planning::RankingGroup& g : rank.groups)
-    for (const planning::ModelRanking& m : g.models) {
-      if (!m.of_the_file()) continue;
-      const std::string said = fmt::format("{}: {}", model_text(m), seen_text(m));
-      if (brief.verdict.empty())
-        brief.verdict = "Seen under " + said;
-      else
-        brief.more.add(Weight::note, "Under " + said);
-      if (std::ranges::any_of(m.ranking.parameters,
-                              [](const auto& p) { return p.learning_ratio() > hardly_known; }))
-        brief.tone = Tone::doubtful;
-    }
+  std::string said_before;
+  for (const Seen& s : seen) {
+    const std::string said = fmt::format("{}: {}", model_text(s.model), seen_text(s, said_before));
+    said_before = combinations_of(s.unseen);
+    if (brief.verdict.empty())
+      brief.verdict = "Seen under " + said;
+    else
+      brief.more.add(Weight::note, "Under " + said);
+  }
   if (rank.process_noise)
     brief.more.add(Weight::note,
                    "A filter has process noise, which this information does not know: what is "
                    "said here is the least that is left.");
   if (rank.assumed_field_l) brief.more.add(Weight::note, field_remark(rank));
-  if (rank.better && gains(rank)) {
-    brief.next =
-        study.plan.preset.empty()
-            ? "Next: put the positions of proposed_positions.toml behind the last "
-              "[[plan.position]] of the study."
-            : "Next: put the positions of proposed_positions.toml, which are all of the plan, in "
-              "the place of the study's plan.preset.";
-  } else if (!rank.better && brief.tone == Tone::doubtful) {
-    brief.next = fmt::format("Next: driftscope rank {} --improve 3 proposes positions to add.",
-                             study_words(study));
-  }
+  brief.next = next_text(study, rank, seen);
   return brief;
 }
 

@@ -48,5 +48,83 @@ terms = ["fixed_drift"]
   EXPECT_TRUE(has(better, "under eq6 (filter corrected)")) << better;
 }
 
+/// Eighteen positions, at 45 deg too, and gyros with all terms of g^2: the sum of their squares is
+/// constant in any laboratory (physics.md 2.4).
+std::string with_squares(const std::string& parameters = "") {
+  return R"(schema = 1
+[site]
+latitude = "-35 deg"
+[plan]
+preset = "eighteen"
+dwell  = "10 min"
+sample = "5 min"
+mode   = "level"
+[[filter]]
+name = "f"
+coupling = "eq5"
+terms = ["fixed_drift", "g_drift", "g2_drift"]
+)" + parameters;
+}
+
+TEST(RankBrief, NamesWhatNoPositionShowsAndProposesNoneForIt) {
+  // Each parameter alone is seen: 0.58 of the prior sigmas of squares, 1/sqrt(3), are left.
+  const Answer a(with_squares());
+  for (const auto& p : a.rank.groups.front().models.front().ranking.parameters)
+    ASSERT_LT(p.learning_ratio(), 0.9);
+  EXPECT_TRUE(has(a.brief.verdict,
+                  "3 combinations are not seen, and no position shows them: D_F_x - D_II_x - "
+                  "D_OO_x - D_SS_x, "))
+      << a.brief.verdict;
+  EXPECT_TRUE(has(a.brief.verdict, "= 1 g^2 in any laboratory")) << a.brief.verdict;
+  EXPECT_FALSE(has(a.brief.verdict, "every one is seen"));
+  EXPECT_EQ(a.brief.tone, Tone::doubtful);
+  EXPECT_EQ(a.brief.next,
+            "Next: of a combination that no position shows, fix one parameter or declare its "
+            "prior.");
+}
+
+TEST(RankBrief, SaysTheCombinationsOfTwoFiltersOnce) {
+  const Answer a(
+      with_squares("[[filter]]\nname = \"other\"\ncoupling = \"eq6\"\n"
+                   "terms = [\"fixed_drift\", \"g_drift\", \"g2_drift\"]\n"));
+  EXPECT_TRUE(has(a.brief.verdict, "D_F_x - D_II_x - D_OO_x - D_SS_x")) << a.brief.verdict;
+  const std::string other = a.brief.more.texts().front();
+  EXPECT_TRUE(has(other, "; the same combinations are not seen.")) << other;
+}
+
+TEST(RankBrief, ProposesNoPositionsForAParameterThatACombinationHides) {
+  // 0.01 deg/h against 0.1 deg/h/g^2 of each square: of D_F_x 100 / sqrt(100^2 + 3 * 10^2) = 0.985
+  // of the prior sigma is left whatever the plan.
+  const Answer a(
+      with_squares("[filter.parameters]\nD_F = { normal = [\"0 deg/h\", \"0.01 deg/h\"] }\n"));
+  EXPECT_TRUE(has(a.brief.verdict, "hardly or not seen")) << a.brief.verdict;
+  EXPECT_FALSE(has(a.brief.next, "--improve")) << a.brief.next;
+  EXPECT_TRUE(has(a.brief.next, "fix one parameter")) << a.brief.next;
+}
+
+TEST(RankBrief, ProposesPositionsForACombinationThatTheyShow) {
+  // At cardinal positions a_I^3 = a_I: K1 with K3 is not seen, 45 deg show it.
+  const std::string filter = "[[filter]]\nname = \"f\"\ncoupling = \"eq5\"\nterms = ";
+  const std::string plan = R"(schema = 1
+[site]
+latitude = "45 deg"
+[plan]
+preset = "twentyfour"
+dwell  = "10 min"
+sample = "5 min"
+mode   = "level"
+)";
+  const Answer a(plan + filter + "[\"K0\", \"K1\", \"K3\"]\n");
+  EXPECT_TRUE(has(a.brief.verdict, "3 combinations are not seen: K1_x - K3_x, "))
+      << a.brief.verdict;
+  EXPECT_TRUE(has(a.brief.next, "--improve 3")) << a.brief.next;
+  EXPECT_FALSE(has(a.brief.next, "fix one parameter")) << a.brief.next;
+  // Without K3 all is seen.
+  const Answer whole(plan + filter + "[\"K0\", \"K1\"]\n");
+  EXPECT_TRUE(has(whole.brief.verdict, "every one is seen")) << whole.brief.verdict;
+  EXPECT_EQ(whole.brief.tone, Tone::good);
+  EXPECT_EQ(whole.brief.next, "");
+}
+
 }  // namespace
 }  // namespace drift::rank_brief_test
