@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t reach = 8;      // rows to either side: three of four may follow a lost one
 constexpr std::size_t few_steps = 8;  // of a stretch, to be judged by itself
+constexpr int uneven = 3;  // changes of the step or more: it is not longer from somewhere on
 constexpr double same_step = 1e-3;
 constexpr double alike = 0.1;  // part by which steps of one kind differ
 
@@ -38,13 +39,36 @@ std::vector<SpacedRows> stretches_of(const Recording& r) {
   return all;
 }
 
+/// The step of even rows of which some are lost, half of them or more: steps are one to a few of
+/// those that are usual in the whole phase and change again and again, as means over longer do not.
+/// NaN if they are not so.
+double step_with_losses(const std::vector<double>& steps, double of_phase) {
+  double seconds = 0.0, whole = 0.0, before = nan_value;
+  int changes = 0;
+  bool single = false;
+  for (const double step : steps) {
+    const double times = std::round(step / of_phase);
+    if (times < 1.0 || std::abs(step - times * of_phase) > alike * of_phase) return nan_value;
+    if (!std::isnan(before) && times != before) ++changes;
+    single = single || times == 1.0;
+    before = times;
+    seconds += step;
+    whole += times;
+  }
+  const bool few_left = whole > 4.0 * static_cast<double>(steps.size());  // or rows of other kinds
+  return single && changes >= uneven && !few_left ? seconds / whole : nan_value;
+}
+
 /// The usual one of the steps around a row. Where every other row is lost the median is that of
-/// gaps: a quarter of the steps that are as usual in the whole phase tell it from longer rows.
+/// gaps: a quarter of the steps that are as usual in the whole phase tell it from longer rows, and
+/// so do uneven steps.
 double usual_of(std::vector<double> steps, double of_phase) {
+  const double with_losses = step_with_losses(steps, of_phase);
   std::ranges::sort(steps);
   const double median = steps[steps.size() / 2], quartile = steps[(steps.size() - 1) / 4];
-  const bool gaps = median > 1.5 * of_phase && std::abs(quartile - of_phase) < alike * of_phase;
-  return gaps ? quartile : median;
+  if (!(median > 1.5 * of_phase)) return median;
+  if (std::abs(quartile - of_phase) < alike * of_phase) return quartile;
+  return std::isnan(with_losses) ? median : with_losses;
 }
 
 /// The usual step around each row of a stretch. Its first row says how far it is from another

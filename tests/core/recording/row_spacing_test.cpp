@@ -74,6 +74,51 @@ TEST(RowSpacing, KnowsThemWhereEveryOtherRowIsLost) {
     EXPECT_EQ(s.gap(row), behind_gap[row]) << row;
 }
 
+/// Three positions of 20 rows a minute apart, then one whose rows are these minutes apart.
+Recording minutes_and(const std::vector<double>& steps) {
+  Recording r;
+  r.channels = {{"time", unit::s, {}}, {"position", unit::one, {}}};
+  double t = 0.0;
+  const auto add = [&](double minutes, double position) {
+    r.channels[0].values.push_back(t += 60.0 * minutes);
+    r.channels[1].values.push_back(position);
+    r.lines.push_back(r.lines.size() + 1);
+  };
+  for (int k = 0; k < 60; ++k) add(1.0, 1 + k / 20);
+  for (const double step : steps) add(step, 4.0);
+  return r;
+}
+
+TEST(RowSpacing, UnevenStepsOfThoseThatAreUsualAreLostRows) {
+  // Nine and eleven rows of twenty are left; one of eight steps, and one of ten, is as usual.
+  for (const std::vector<double>& left : {std::vector{2.0, 2.0, 2.0, 2.0, 3.0, 3.0, 1.0, 2.0, 3.0},
+                                          {1.0, 2.0, 3.0, 1.0, 3.0, 2.0, 2.0, 3.0, 2.0, 2.0}}) {
+    const Recording r = minutes_and(left);
+    const RowSpacing s = row_spacing(r);
+    for (std::size_t row = 60; row < r.rows(); ++row) {
+      EXPECT_NEAR(s.usual[row], 60.0, 1e-9) << row;
+      EXPECT_EQ(s.gap(row), left[row - 60] > 1.0) << row;
+      if (s.gap(row)) {
+        EXPECT_DOUBLE_EQ(s.missing(row), left[row - 60] - 1.0) << row;
+      }
+    }
+  }
+}
+
+TEST(RowSpacing, EvenStepsAreMeansOverLonger) {
+  // Of 120 s throughout, with one lost, with one of 60 s between; and far longer than is usual.
+  std::vector<double> even(12, 2.0), lost = even, split = even, far(16, 60.0);
+  lost[6] = 4.0;
+  split[6] = 1.0;
+  for (const std::size_t k : {3u, 7u, 11u}) far[k] = 1.0;
+  for (const auto& [steps, usual] :
+       {std::pair{even, 120.0}, {lost, 120.0}, {split, 120.0}, {far, 3600.0}}) {
+    const Recording r = minutes_and(steps);
+    const RowSpacing s = row_spacing(r);
+    for (std::size_t row = 61; row < r.rows(); ++row) EXPECT_DOUBLE_EQ(s.usual[row], usual) << row;
+  }
+}
+
 /// Positions of so many rows each at these distances, without a pause between them; and its plan.
 struct Dwells {
   Recording recording;
