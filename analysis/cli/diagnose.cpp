@@ -34,7 +34,7 @@ void require_nominal(const mc::Study& study) {
 void finish(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
             const report::DiagnosisSource& source, const std::vector<Recording>& recordings,
             const std::string& folder, const std::vector<TextFile>& beside = {}) {
-  Rest rest{cards_text(recordings, study.kind) + report::to_text(diagnosis), folder, {}};
+  Rest rest{cards_text(study, recordings) + report::to_text(diagnosis), folder, {}};
   if (!folder.empty()) {
     const ResultsTurn turn({folder, "diagnose"});
     rest.files = report::write_results(study, diagnosis, source, folder, beside);

@@ -29,7 +29,7 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
   const report::Report said =
       with_provenance(report::case_report(study, id), report::provenance_of(study.path, paths));
   Rest rest{
-      cards_text(recordings, study.kind) + report::to_text(said), folder, {}, said.document.second};
+      cards_text(study, recordings) + report::to_text(said), folder, {}, said.document.second};
   if (!folder.empty()) {
     const ResultsTurn turn({folder, "identify"});
     rest.files = report::write_report(said, folder);
@@ -53,7 +53,7 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   const report::Report said = with_provenance(report::identification_report(study, id),
                                               report::provenance_of(study.path, paths));
   Rest rest{
-      cards_text(recordings, study.kind) + report::to_text(said), folder, {}, said.document.second};
+      cards_text(study, recordings) + report::to_text(said), folder, {}, said.document.second};
   if (!folder.empty()) {
     const ResultsTurn turn({folder, "identify"});
     rest.files = report::write_identification(said, id, folder);

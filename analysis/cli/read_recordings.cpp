@@ -11,6 +11,7 @@
 #include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/units.hpp"
+#include "core/plan/plan_rows.hpp"
 #include "core/recording/own/csv_cells.hpp"
 #include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -110,6 +111,15 @@ void tell_other_gravity(const mc::Study& study, const Recording& recording) {
       recording.source, said, study.site.gravity, off / ppm);
 }
 
+/// What a recording looks like, also beside the plan.
+QualityCard card_of(const mc::Study& study, const Recording& recording) {
+  QualityCard card = quality_card(recording, study.kind);
+  if (study.kind == RecordingKind::platform)
+    if (std::string text = rows_longer_than_others(recording, study.plan); !text.empty())
+      card.remarks.add(Weight::doubtful, std::move(text));
+  return card;
+}
+
 /// What looks odd is told at once, what weighs most of it.
 void tell_remarks(const QualityCard& card) {
   constexpr std::size_t most = 3;
@@ -175,14 +185,14 @@ std::vector<Recording> read_recordings(const mc::Study& study,
             fmt::format("{}: has the same readings as {} (expected recordings of different tests: "
                         "one and the same is no further evidence). Name one of them",
                         path, paths[before]));
-    tell_remarks(quality_card(recordings.back(), study.kind));
+    tell_remarks(card_of(study, recordings.back()));
   }
   return recordings;
 }
 
-std::string cards_text(const std::vector<Recording>& recordings, RecordingKind kind) {
+std::string cards_text(const mc::Study& study, const std::vector<Recording>& recordings) {
   std::string out;
-  for (const Recording& r : recordings) out += to_text(quality_card(r, kind)) + "\n";
+  for (const Recording& r : recordings) out += to_text(card_of(study, r)) + "\n";
   return out;
 }
 

@@ -17,7 +17,7 @@ std::optional<std::string> assumed_gravity(const mc::Study& study);
 std::vector<Recording> read_recordings(const mc::Study& study,
                                        const std::vector<std::string>& paths);
 
-/// The quality cards of recordings.
-std::string cards_text(const std::vector<Recording>& recordings, RecordingKind kind);
+/// The quality cards of recordings of a study.
+std::string cards_text(const mc::Study& study, const std::vector<Recording>& recordings);
 
 }  // namespace drift::cli

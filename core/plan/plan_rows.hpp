@@ -21,4 +21,9 @@ std::vector<double> planned_samples(const Recording& recording, const TestPlan& 
 /// measurement with the noise of [readout].
 std::vector<std::string> rows_other_than_planned(const Recording& recording, const TestPlan& plan);
 
+/// Where the dwells of some positions have rows that are evenly two or more times as far apart as
+/// those of the others (of more than half, or as planned), and the plan has them no longer: means
+/// over that, or every other row is lost. In words, with what to do if it is; or empty.
+std::string rows_longer_than_others(const Recording& recording, const TestPlan& plan);
+
 }  // namespace drift
