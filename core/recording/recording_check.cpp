@@ -15,6 +15,7 @@
 #include "core/recording/rows/commanded_slews.hpp"
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
+#include "core/recording/rows/held_order.hpp"
 #include "core/recording/rows/turned_rows.hpp"
 #include "core/recording/sexagesimal.hpp"
 
@@ -120,10 +121,7 @@ void check_position(const Recording& r, RowOrder order, Problems& problems) {
                    "PLAN, ... }, 0 where it is turned between two positions");
     } else if (p < last && order == RowOrder::known) {
       problems.add(place_in(r, i, "position"), fmt::format("position {} comes after {}", p, last),
-                   "positions in the order of the plan",
-                   "Number the positions in the order they were held, or say in [recording] of the "
-                   "study file which position of the plan each is: positions = { \"NUMBER IN THE "
-                   "FILE\" = NUMBER IN THE PLAN, ... }");
+                   "positions in the order of the plan", held_order_advice(position->values));
     } else {
       last = p;
     }

@@ -1,0 +1,36 @@
+#include "core/recording/rows/held_order.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/words.hpp"
+
+namespace drift {
+namespace {
+
+constexpr std::size_t most_told = 24;
+
+}  // namespace
+
+std::string held_order_advice(const std::vector<double>& position) {
+  std::vector<double> held;
+  for (const double p : position)
+    if (p >= 1.0 && (held.empty() || p != held.back())) held.push_back(p);
+  if (std::set<double>(held.begin(), held.end()).size() < held.size())
+    return "Number them 1, 2, 3 and so on as they were held, anew each time, and put "
+           "[[plan.position]] of the study file into that order";
+  std::vector<std::string> numbers, pairs;
+  for (const double p : held) {
+    numbers.push_back(fmt::format("{}", p));
+    pairs.push_back(fmt::format("\"{}\" = {}", p, pairs.size() + 1));
+  }
+  return fmt::format(
+      "Put [[plan.position]] of the study file into the order in which they were held, {}, and say "
+      "in its [recording] which is which then: positions = {{ {} }}. `driftscope new diagnose` "
+      "with this file writes both, as its gimbals show",
+      listed_up_to(numbers, most_told), listed_up_to(pairs, most_told));
+}
+
+}  // namespace drift
