@@ -7,12 +7,14 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/late_rows.hpp"
 #include "core/plan/mixup.hpp"
+#include "core/plan/other_order.hpp"
 #include "core/plan/slew_check.hpp"
 #include "core/recording/recording_channels.hpp"
 
@@ -59,7 +61,7 @@ std::optional<std::string> late_text(const std::vector<std::size_t>& late,
 
 /// All positions that are elsewhere, in one message.
 std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong, std::size_t all,
-                           Mismatch mismatch, const char* what) {
+                           Mismatch mismatch, const char* what, const std::string& advice) {
   constexpr std::size_t most = 4;
   std::vector<std::string> places;
   for (const Sight& s : wrong)
@@ -69,12 +71,9 @@ std::string elsewhere_text(const TestPlan& plan, const std::vector<Sight>& wrong
                                    mismatch(s, s.seen) / detail::deg));
   return fmt::format(
       "in {} of {} positions the {} away from the attitude in the plan (expected at most {:.0f} "
-      "deg): {}{}. Is this the plan, and the order of positions, the recording was made with? "
-      "Where "
-      "it numbers them otherwise, say in [recording] of the study file which is which: positions = "
-      "{{ \"NUMBER IN THE FILE\" = NUMBER IN THE PLAN, ... }}",
+      "deg): {}{}. {}",
       wrong.size(), all, what, largest_mismatch / detail::deg, fmt::join(places, ", "),
-      wrong.size() > most ? fmt::format(" and {} more", wrong.size() - most) : "");
+      wrong.size() > most ? fmt::format(" and {} more", wrong.size() - most) : "", advice);
 }
 
 /// What one kind of instrument shows: where it is elsewhere, and why, if something simple explains
@@ -181,6 +180,23 @@ std::vector<Sight> as_planned(std::vector<Sight> sights, const TestPlan& plan) {
   return sights;
 }
 
+/// What to do where an instrument shows other attitudes than the plan has, by those of its other
+/// positions.
+std::string advice_for(const Recording& recording, const TestPlan& plan, const Site& site,
+                       const std::vector<Sight>& sights, Mismatch mismatch) {
+  const std::vector<Passage> passages = plan_passages(plan, site);
+  const bool headings = recording.find("case_heading") != nullptr;
+  const auto at = [&](Sight s, std::size_t p) {
+    s.R_lr = plan.positions[p].R_lp;
+    if (!headings) s.heading = passages[p].dwell.heading1;
+    return mismatch(s, s.seen);
+  };
+  const auto& numbers = recording.find("position")->values;
+  return other_order_advice(
+      shown_positions(sights, passages.size(), at),
+      sights.size() == std::set<double>(numbers.begin(), numbers.end()).size());
+}
+
 AngleUnits units_of(const Recording& recording) {
   AngleUnits units;
   units.fill(unit::rad);
@@ -246,7 +262,8 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
           "within {:.0f} deg); all would if this were so: {}",
           gimbals.wrong.size(), gimbals.sights.size(), largest_mismatch / detail::deg, *slip);
   const auto elsewhere = [&](const Shown& s, Mismatch mismatch, const char* what) {
-    return elsewhere_text(plan, s.wrong, s.sights.size(), mismatch, what);
+    return elsewhere_text(plan, s.wrong, s.sights.size(), mismatch, what,
+                          advice_for(recording, plan, timeline.site, s.sights, mismatch));
   };
   const bool few = 2 * gimbals.wrong.size() < gimbals.sights.size() && acc.wrong.empty();
   const std::string another_unit = few ? unit_there(gimbals.wrong, units_of(recording)) : "";
