@@ -100,7 +100,8 @@ std::optional<SiteFinding> with_effects(const mc::Study& study,
           .estimate;
   const ParameterEstimate* rest = fit.find(d_lat);
   if (rest == nullptr) return std::nullopt;
-  about.latitude += rest->value;
+  about.latitude =
+      std::clamp(about.latitude + rest->value, -90.0 * detail::deg, 90.0 * detail::deg);
   about.sigma = rest->sigma;
   about.chi2_per_dof_before = d.fit.chi2_per_dof_before;
   about.chi2_per_dof_after = fit.statistic_per_dof();

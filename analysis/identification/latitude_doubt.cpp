@@ -21,6 +21,12 @@ using inference::SiteLimits;
 
 constexpr auto d_lat = TermLibrary::index("d_lat");
 
+constexpr double pole = 90.0 * detail::deg;
+
+double from_pole_to_pole(double latitude) {
+  return std::clamp(latitude, -pole, pole);
+}
+
 /// The fit with the study at one latitude.
 struct Point {
   double latitude = 0.0;
@@ -52,7 +58,7 @@ class Latitudes {
  private:
   Point point(double latitude, BatchOptions options, const Point* from) const {
     Point p{latitude};
-    if (!(std::abs(latitude) <= 90.0 * detail::deg)) return p;
+    if (!(std::abs(latitude) <= pole)) return p;
     mc::Study study = study_;
     study.site.latitude = latitude;
     try {
@@ -124,7 +130,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   };
   // Near the truth the cost grows with the square of the error: its parabola leads there, the
   // better the smaller the step. Far from it the cost may be concave: then several distances are
-  // tried at once.
+  // tried at once. At a pole there is one side: it promises.
   const double small = 0.2 * detail::deg;
   const std::vector<Point> beside = latitudes.beside(before, {declared - small, declared + small});
   const double bend = beside[0].cost + beside[1].cost - 2.0 * before.cost;
@@ -146,13 +152,19 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
       const Point here = best;
       last_step = step;
       last_latitude = here.latitude;
-      const std::vector<Point> sides = latitudes.at({here.latitude - step, here.latitude + step});
-      const double curvature = sides[0].cost + sides[1].cost - 2.0 * here.cost;
+      // Beside a pole all three lie on its side.
+      const double middle = std::clamp(here.latitude, step - pole, pole - step);
+      std::vector<double> beside_it{from_pole_to_pole(middle - step),
+                                    from_pole_to_pole(middle + step)};
+      if (middle != here.latitude) beside_it.push_back(middle);
+      const std::vector<Point> sides = latitudes.at(beside_it);
+      const double of_middle = sides.size() > 2 ? sides[2].cost : here.cost;
+      const double curvature = sides[0].cost + sides[1].cost - 2.0 * of_middle;
       if (!std::isfinite(curvature)) return;
       information = curvature / (2.0 * step * step);
       if (curvature > 0.0) {
-        take(latitudes.at(
-            {here.latitude + 0.5 * step * (sides[0].cost - sides[1].cost) / curvature}));
+        take(latitudes.at({from_pole_to_pole(middle + 0.5 * step * (sides[0].cost - sides[1].cost) /
+                                                          curvature)}));
       } else {
         std::vector<double> around;
         for (const double far : {4.0, 8.0, 16.0, 32.0, 64.0})
