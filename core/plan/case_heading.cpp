@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/check.hpp"
+#include "core/base/words.hpp"
 
 namespace drift {
 namespace {
@@ -92,6 +92,22 @@ std::vector<double> candidate_headings(double heading) {
   return all;
 }
 
+/// What a position that cannot be held needs instead. best: the middle gimbal's angle at the
+/// heading that keeps it least [rad].
+std::string lock_text(const Position& position, std::size_t p, double best) {
+  std::vector<std::string> ways{"a case_heading of your own"};
+  if (position.case_heading) ways = {"another case_heading", "none of your own"};
+  if (position.entry == Entry::caged || p == 0)
+    ways.emplace_back("a shorter dwell");
+  else
+    ways.insert(ways.end(), {"an intermediate position", "entry = \"caged\""});
+  return fmt::format(
+      "position {} ('{}'): the middle gimbal would reach {:.0f} deg on the way or in the dwell "
+      "(at most {:.0f} deg is usable). Choose {}",
+      p + 1, position.name, best / detail::deg, position.case_heading ? 85.0 : 60.0,
+      listed(ways, "or"));
+}
+
 }  // namespace
 
 std::vector<Passage> plan_passages(const TestPlan& plan, const Site& site) {
@@ -118,14 +134,7 @@ std::vector<Passage> plan_passages(const TestPlan& plan, const Site& site) {
       found = true;
       break;
     }
-    if (!found)
-      throw InputError(
-          ExitCode::config,
-          fmt::format("plan: position {} ('{}'): the middle gimbal would reach {:.0f} deg "
-                      "on the way or in the dwell (at most {:.0f} deg is usable). Choose "
-                      "another case_heading, an intermediate position, or entry = \"caged\"",
-                      p + 1, position.name, best / detail::deg,
-                      position.case_heading ? 85.0 : 60.0));
+    if (!found) throw GimbalLock(p, lock_text(position, p, best));
     const Stretch& dwell = passages.back().dwell;
     R_lp = reference_attitude(site, position.R_lp, dwell.omega_cmd_p, dwell.duration);
   }

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/check.hpp"
 #include "core/physics/earth.hpp"
 #include "core/plan/test_plan.hpp"
 
@@ -32,10 +36,20 @@ struct Passage {
 /// Largest angle of the middle gimbal that a plan may use.
 inline constexpr double middle_gimbal_limit = 60.0 * detail::deg;  // [rad]
 
+/// No heading of the case keeps the middle gimbal of a position where it can be used.
+class GimbalLock : public InputError {
+ public:
+  GimbalLock(std::size_t at, std::string why)
+      : InputError(ExitCode::config, "plan: " + why), position(at), text(std::move(why)) {}
+
+  std::size_t position;  ///< from 0
+  std::string text;      ///< what, and what to do
+};
+
 /// Commands, durations and case headings of every position of a plan. Approaches last a whole
 /// number of samples. A heading that the plan leaves open stays as it is while the middle gimbal
 /// stays below the limit on the way and in the dwell; otherwise the case is turned (before the
-/// slew) to the nearest multiple of 15 deg that keeps it. InputError (config) if there is none.
+/// slew) to the nearest multiple of 15 deg that keeps it. GimbalLock if there is none.
 std::vector<Passage> plan_passages(const TestPlan& plan, const Site& site);
 
 }  // namespace drift

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/config/nearest.hpp"
+#include "core/plan/case_heading.hpp"
 #include "core/plan/readout_config.hpp"
 
 namespace drift {
@@ -107,7 +108,7 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
 }
 
 void read_positions(Section& section, const PlanDefaults& defaults, Checked inherited,
-                    TestPlan& plan) {
+                    PlanConfig& config) {
   constexpr std::size_t most = 10000;
   const config::Node* node = section.take("position");
   auto list = section.sections("position");
@@ -118,8 +119,9 @@ void read_positions(Section& section, const PlanDefaults& defaults, Checked inhe
                                        section.full("position"), list.size(), most));
   std::vector<std::string> names;
   for (auto& position : list) {
-    plan.positions.push_back(read_position(position, names.size() + 1, defaults, inherited));
-    const auto& name = plan.positions.back().name;
+    config.plan.positions.push_back(read_position(position, names.size() + 1, defaults, inherited));
+    config.places.push_back(position.at());
+    const auto& name = config.plan.positions.back().name;
     if (name.empty() || std::find(names.begin(), names.end(), name) != names.end())
       section.report().error(
           position.at(), fmt::format("the position name '{}' is {} (expected a name of its own for "
@@ -155,7 +157,8 @@ std::optional<E> read_optional(Section& section, std::string_view key,
   return value;
 }
 
-void read_platform(Section& section, TestPlan& plan) {
+void read_platform(Section& section, PlanConfig& config) {
+  TestPlan& plan = config.plan;
   PlanDefaults defaults;
   const bool by_default = !section.has("dwell") && section.has("position");
   read_dwell(section, defaults.dwell, defaults.sample,
@@ -181,10 +184,13 @@ void read_platform(Section& section, TestPlan& plan) {
         fmt::format("[plan] has no positions (expected preset = \"six\" or another of {}, or "
                     "[[plan.position]] one by one). Add preset = \"six\"",
                     fmt::join(preset_names, ", ")));
-  if (preset != nullptr) read_preset(section, defaults, plan);
+  if (preset != nullptr) {
+    read_preset(section, defaults, plan);
+    config.places = {preset->at};
+  }
   if (position != nullptr) {
     plan.positions.clear();
-    read_positions(section, defaults, by_default ? Checked::here : Checked::elsewhere, plan);
+    read_positions(section, defaults, by_default ? Checked::here : Checked::elsewhere, config);
   }
 }
 
@@ -215,7 +221,7 @@ PlanConfig read_plan(Section section) {
   section.read(Option{.key = "kind", .doc = "of the test"}, config.kind, kinds);
   if (section.report().errors() != errors) return config;  // what is missing depends on it
   if (config.kind == RecordingKind::platform) {
-    read_platform(section, config.plan);
+    read_platform(section, config);
     refuse_keys(section, {"static_min", "accelerometers_in_turns"}, "kind = \"strapdown\"");
   } else {
     section.read(Option{"static_min", unit::s, 1e-2, 1e5, "shortest dwell that counts"},
@@ -230,6 +236,15 @@ PlanConfig read_plan(Section section) {
   }
   section.finish();
   return config;
+}
+
+void check_headings(const PlanConfig& config, const Site& site, config::Report& report) {
+  if (config.kind != RecordingKind::platform || config.places.empty()) return;
+  try {
+    plan_passages(config.plan, site);
+  } catch (const GimbalLock& lock) {
+    report.error(config.places[std::min(lock.position, config.places.size() - 1)], lock.text);
+  }
 }
 
 Site read_site(Section section, RecordingKind kind) {

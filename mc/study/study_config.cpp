@@ -189,6 +189,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   }
   top.finish();
   if (report.errors() == 0) check_stop(report, root, study);
+  if (report.errors() == 0) check_headings(plan, study.site, report);
   return study;
 }
 
