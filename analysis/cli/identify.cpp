@@ -1,6 +1,7 @@
 #include "analysis/identification/identify.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
@@ -39,7 +40,11 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
 }
 
 ExitCode identify(const StudyArguments& arguments, const std::vector<std::string>& paths,
-                  const std::string& folder, std::uint64_t run) {
+                  const std::string& folder, std::optional<std::uint64_t> run) {
+  if (run && !paths.empty())
+    throw InputError(ExitCode::usage,
+                     "--run: recordings are given (expected with a study alone, whose recording is "
+                     "simulated: it is the number of that). Leave it out, or the recordings");
   const mc::Study study = arguments.read();
   if (!folder.empty()) require_one_task("Start it once");
   require_results_folder({folder, "identify"}, with(paths, study.path));
@@ -47,7 +52,7 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   const auto progress = progress_reporter(arguments.progress, "estimates");
   const auto recordings = read_recordings(study, paths);
   const identification::Identification id =
-      paths.empty() ? identification::identify_simulated(study, run, 0, progress)
+      paths.empty() ? identification::identify_simulated(study, run.value_or(0), 0, progress)
                     : identification::identify_recordings(study, recordings, 0, progress);
   for (const std::string& remark : id.remarks) say("note: {}\n", remark);
   const report::Report said = with_provenance(report::identification_report(study, id),
@@ -69,7 +74,7 @@ Command identify_command() {
     StudyArguments study;
     std::vector<std::string> recordings;
     std::string output;
-    std::uint64_t run = 0;
+    std::optional<std::uint64_t> run;
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);

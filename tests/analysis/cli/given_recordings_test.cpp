@@ -56,6 +56,18 @@ TEST(GivenRecordings, TheSameReadingsInAnotherUnitAreNoneEither) {
   EXPECT_NE(a.err.find("has the same readings as"), std::string::npos) << a.err;
 }
 
+TEST(GivenRecordings, AreNoSimulatedOneThatHasANumber) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("made.toml", short_study), one = folder.file("one.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + one).code, 0);
+  for (const std::string number : {"0", "3"}) {
+    const Answer a = driftscope("identify " + study + " " + one + " --run " + number);
+    EXPECT_EQ(a.code, static_cast<int>(ExitCode::usage));
+    EXPECT_NE(a.err.find("--run: recordings are given"), std::string::npos) << a.err;
+    EXPECT_EQ(driftscope("identify " + study + " --quiet --run " + number).code, 0);
+  }
+}
+
 TEST(GivenRecordings, OfACaseThatStoodAtFortyFiveDegreesNewSaysBoth) {
   const ScratchFolder folder;
   const std::string study = folder.write("made.toml", short_study), made = folder.file("made.csv"),
