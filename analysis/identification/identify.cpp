@@ -21,6 +21,7 @@
 #include "core/physics/stochastic.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
+#include "core/sim/judged_truth.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
@@ -222,20 +223,19 @@ Identification identify_simulated(const mc::Study& study, std::uint64_t run, int
   mc::resolve_own_terms(timeline, study);
   id.samples = samples_of(timeline, study.readout, {timeline.intervals.size()});
   id.excitation = excitation_of(timeline);
-  id.truth = draw_truth(study.truth, timeline.chains, seed, run);
-  set_lambda(study.truth, id.truth->theta);
+  const TruthDraw draw = draw_truth(study.truth, timeline.chains, seed, run);
+  id.truth = draw;
+  id.truth->theta = judged_truth(study.truth, draw.theta);
   if (study.truth.coupling == Coupling::compensated && study.truth.loop == LoopEstimate::feedback) {
     id.test_of_each_start = true;
-    run_jobs(study, id, threads, progress, [&](const Job& job) {
-      return estimate_in_the_loop(study, job, timeline, *id.truth, run);
-    });
+    run_jobs(study, id, threads, progress,
+             [&](const Job& job) { return estimate_in_the_loop(study, job, timeline, draw, run); });
     id.summaries = summarise(study, id);
     return id;
   }
-  const Simulation sim = Simulator(study.truth, study.readout).run(timeline, *id.truth, seed, run);
+  const Simulation sim = Simulator(study.truth, study.readout).run(timeline, draw, seed, run);
   require_ok(sim.ode, run);
-  id.truth->theta = sim.theta_end;  // what an estimate at the end is to be compared with
-  set_lambda(study.truth, id.truth->theta);
+  id.truth->theta = judged_truth(study.truth, sim.theta_end);  // of estimates at the end
   id.recordings = {make_recording(timeline, sim.measured, study.readout)};
   estimate_all(study, {timeline, study.readout, sim.measured}, id, threads, progress);
   return id;

@@ -1,5 +1,6 @@
 #include "mc/statistics/filter_statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/estimate/estimate_result.hpp"
@@ -84,7 +85,9 @@ void FilterStatistics::add_start(std::span<const double> row, std::size_t start)
   const auto of = [&](C::Field field) { return row[columns_.at(start, field)]; };
   const bool healthy = s.nis.add(of(C::nis), of(C::nis_dof));
   s.nees.add(of(C::nees), of(C::nees_dof));
-  s.nees_all.add(of(C::nees_all), static_cast<double>(columns_.layout.size()));
+  const auto judged =  // a truth may have no such parameter
+      std::ranges::count_if(columns_.truth, [&](std::size_t c) { return !std::isnan(row[c]); });
+  s.nees_all.add(of(C::nees_all), static_cast<double>(judged));
   if (std::isfinite(of(C::lag1)))
     s.white.count(std::abs(of(C::lag1)) < stats::half_width_95 / std::sqrt(of(C::nis_dof)));
   bool some_wrong = false;

@@ -8,6 +8,7 @@
 #include "core/estimate/closure/closure_posterior.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/plan/environment.hpp"
+#include "core/sim/judged_truth.hpp"
 #include "mc/task/trace.hpp"
 
 namespace drift::mc {
@@ -32,6 +33,16 @@ void blame(RunOutcome& out, RunStatus status, std::string cause, double t) {
   out.t_failed = t;
 }
 
+/// States of a filter that the truth has a value for.
+std::vector<Eigen::Index> judged_states(const TruthSpec& truth, const Layout& layout) {
+  const Theta values = judged_truth(truth, Theta::Zero());
+  std::vector<Eigen::Index> states;
+  for (std::size_t k = 0; k < layout.size(); ++k)
+    if (!std::isnan(values[static_cast<Eigen::Index>(layout.params[k])]))
+      states.push_back(static_cast<Eigen::Index>(k));
+  return states;
+}
+
 void fail(RunWork& work, const std::exception& e) {
   std::ranges::fill(work.row, std::numeric_limits<double>::quiet_NaN());
   work.outcome.status = RunStatus::error;
@@ -50,8 +61,10 @@ StudyWorker::StudyWorker(const StudyTask& task)
   for (std::size_t f = 0; f < study.filters.size(); ++f) {
     const FilterSpec& spec = study.filters[f];
     const StudyColumns::Filter& columns = task.layout().filters[f];
-    const auto n = static_cast<Eigen::Index>(columns.layout.size());
-    Bench bench{spec, columns, {}, nullptr, nullptr, {}, {}, PrincipalAxes(n), VecX(n)};
+    std::vector<Eigen::Index> judged = judged_states(study.truth, columns.layout);
+    const Eigen::Index n = std::ssize(judged);
+    Bench bench{spec, columns,           {},      nullptr,    nullptr,         {},
+                {},   std::move(judged), VecX(n), MatX(n, n), PrincipalAxes(n)};
     const std::size_t fixed = spec.starts.empty() ? 1 : columns.starts;
     for (std::size_t s = 0; s < fixed; ++s)
       bench.fixed_starts.push_back(initial_estimate(spec, study.monte_carlo.seed, 0, s));
@@ -165,7 +178,7 @@ void StudyWorker::simulate(Member& member) {
     set_environment(timeline_, study.environment, study.monte_carlo.seed, run);
   design_.draw(run, timeline_.chains, draw_);
   simulator_.run(timeline_, draw_, study.monte_carlo.seed, run, sim);
-  set_lambda(study.truth, sim.theta_end);  // what an estimate at the end is to be compared with
+  sim.theta_end = judged_truth(study.truth, sim.theta_end);  // of estimates at the end
   const auto& truth = task_.layout().truth;
   for (std::size_t c = 0; c < truth.size(); ++c)
     member.work->row[c] = sim.theta_end[static_cast<Eigen::Index>(truth[c])];
@@ -251,11 +264,16 @@ void StudyWorker::judge(Bench& bench, std::size_t start, const Vector& x, const 
                         std::span<double> row) {
   using C = StudyColumns;
   const C::Filter& at = bench.columns;
-  for (std::size_t k = 0; k < at.layout.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    bench.error[i] = x[i] - (row[at.truth[k]] - at.layout.mean[i]) / at.layout.sigma[i];
+  Eigen::Index n = 0;
+  for (const Eigen::Index k : bench.judged) {
+    const double truth = row[at.truth[static_cast<std::size_t>(k)]];
+    bench.error[n] = x[k] - (truth - at.layout.mean[k]) / at.layout.sigma[k];
+    Eigen::Index m = 0;
+    for (const Eigen::Index l : bench.judged) bench.covariance(n, m++) = P(k, l);
+    ++n;
   }
-  if (!bench.axes.compute(P, bench.error)) return;  // NaN is told as missing
+  if (n == 0) return;
+  if (!bench.axes.compute(bench.covariance, bench.error)) return;  // NaN is told as missing
   const VecX &variances = bench.axes.variance(), &along = bench.axes.along();
   const double observed = std::pow(task_.study().monte_carlo.healthy_sigma, 2);
   double nees = 0.0, all = 0.0;

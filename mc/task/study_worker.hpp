@@ -45,8 +45,10 @@ class StudyWorker final : public RunWorker {
     std::unique_ptr<IteratedPasses> iterated;
     InLanes<EkfLanes, EkfJob> ekf_lanes;
     InLanes<IteratedLanes, IteratedJob> iterated_lanes;
+    std::vector<Eigen::Index> judged;  ///< states that the truth has a value for
+    VecX error;                        ///< of those, in prior sigmas
+    MatX covariance;                   ///< of those
     PrincipalAxes axes;
-    VecX error;  ///< in prior sigmas
 
     bool in_lanes() const { return ekf_lanes.estimator || iterated_lanes.estimator; }
   };
@@ -61,7 +63,8 @@ class StudyWorker final : public RunWorker {
   template <class Filter>
   void write(Bench& bench, Filter& filter, std::size_t start, Member& member);
   void by_batch(Bench& bench, const Theta& from, std::size_t start, Member& member);
-  /// Writes NEES of estimate x with covariance P, both in prior sigmas.
+  /// Writes NEES of estimate x with covariance P, both in prior sigmas: of the states that the
+  /// truth has a value for.
   template <class Vector, class Matrix>
   void judge(Bench& bench, std::size_t start, const Vector& x, const Matrix& P,
              std::span<double> row);

@@ -9,6 +9,7 @@
 #include "core/estimate/sequential/in_lanes/ekf_lanes.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/plan/environment.hpp"
+#include "core/sim/judged_truth.hpp"
 #include "mc/study/design.hpp"
 #include "mc/task/study_task.hpp"
 
@@ -24,8 +25,7 @@ RunTrace trace_run(const Study& point, std::uint64_t run) {
                              .run(timeline, design.draw(run, timeline.chains), mc.seed, run);
   RunTrace trace;
   trace.ode = sim.ode;
-  trace.truth = sim.theta_end;
-  set_lambda(point.truth, trace.truth);
+  trace.truth = judged_truth(point.truth, sim.theta_end);
   if (!sim.ode.ok()) return trace;
   for (std::size_t f = 0; f < point.filters.size(); ++f) {
     const FilterSpec& spec = point.filters[f];

@@ -55,7 +55,7 @@ std::vector<ReferenceLine> references(const mc::Study& study,
       }
     lines.push_back({value, label, lines.empty() ? Stroke::dashed : Stroke::dotted});
   };
-  if (id.truth) add(id.truth->theta[param] / unit, "truth");
+  if (id.truth && !std::isnan(id.truth->theta[param])) add(id.truth->theta[param] / unit, "truth");
   for (const mc::Published& p : study.published)
     for (const auto& v : p.values)
       if (p.filter.empty() && v.param == param && !v.values.empty())

@@ -72,6 +72,14 @@ TEST(ParameterVerdict, IsWrongBeyondFiveSigmaOfAKnownTruth) {
   EXPECT_NEAR(f.verdict(4).off, 6.0, 1e-9);
 }
 
+TEST(ParameterVerdict, IsNotWrongWhereTheTruthHasNoSuchValue) {
+  Fitted f;
+  f.parameter(4).value += 6.0 * f.parameter(4).sigma;
+  const std::size_t param = f.id.summaries[0].layout.params[4];
+  f.id.truth->theta[static_cast<Eigen::Index>(param)] = std::nan("");
+  EXPECT_EQ(f.verdict(4).worth, Worth::learned);
+}
+
 TEST(ParameterVerdict, IsNotToBeTrustedWhereTheFilterMisfits) {
   Fitted f;
   f.id.runs[0].batch.estimate.statistic = 3000.0;  // of 1000 scalars
