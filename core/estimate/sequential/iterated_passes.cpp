@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/number_text.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/plan/stretches_and_chains.hpp"
 
@@ -40,12 +41,24 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
 
 const FilterEstimate& IteratedPasses::run(const Measurements& measured, const Theta& start) {
   if (!first_pass(measured, start)) return *this;
+  double step = 0.0;
   for (int pass = 0; pass < most_passes; ++pass) {
     if (!linear_pass(measured)) return *this;
-    if (largest_step() < 1.0) break;  // what is left is of second order in less than a sigma
+    step = largest_step();
+    if (step < 1.0) break;  // what is left is of second order in less than a sigma
   }
   finish();
+  if (!(step < 1.0)) {
+    status_ = EstimateStatus::not_converged;
+    t_diverged_ = timeline_.intervals.back().t1;
+    cause_ = still_moves(step);
+  }
   return *this;
+}
+
+std::string IteratedPasses::still_moves(double step) {
+  return fmt::format("filter not converged (the last of {} passes moves a parameter by {} sigma)",
+                     most_passes, number_text(step, 2));
 }
 
 /// Rows of one interval behind those of the others.

@@ -20,8 +20,9 @@ namespace drift {
 /// (physics.md 5.9). The second pass is linear in the deviations from a reference: the first one's
 /// final parameters, and the attitude integrated back with them from its estimate at the end of
 /// each chain. Its result is that of a Gauss-Newton step on all data at once, its cost at the
-/// minimum is chi-square. While a pass moves some parameter by more than a posterior sigma there is
-/// another, four at most; mostly there is one.
+/// minimum is chi-square. While a pass moves some parameter by a posterior sigma or more there is
+/// another, four at most; mostly there is one. If the fourth still does, the filter has not
+/// converged.
 ///
 /// Where a drift or the attitude walks so far that no path of the parameters alone stays near
 /// (IntervalRows::strays()), the reference of a linear pass is the filtered attitude itself, taken
@@ -39,6 +40,8 @@ class IteratedPasses : public FilterEstimate {
   /// run. Allocates nothing from the second time on.
   const FilterEstimate& run(const Measurements& measured, const Theta& start);
   const Layout& layout() const { return rows_.layout(); }
+  /// Why a filter has not converged, step: of its last pass, in posterior sigmas.
+  static std::string still_moves(double step);
 
  private:
   enum class Pass { first, linear };

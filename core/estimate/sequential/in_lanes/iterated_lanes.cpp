@@ -109,7 +109,8 @@ void IteratedLanes::run(const Jobs& jobs) {
       pass();
     }
     std::erase_if(waiting_, [&](IteratedJob* job) {
-      const bool seen = job->status_ == EstimateStatus::ok && job->tail_ < StretchRows::negligible;
+      const bool seen =
+          job->status_ != EstimateStatus::diverged && job->tail_ < StretchRows::negligible;
       if (job->done_ && stretches_ && !seen) rough_.push_back(job);
       return job->done_;
     });

@@ -22,14 +22,14 @@ void IteratedLanes::settle() {
   bool any = false;
   for (std::size_t lane = 0; lane < used_; ++lane) {
     settle(*lanes_[lane], lane);
-    any = any || (lanes_[lane]->done_ && lanes_[lane]->status_ == EstimateStatus::ok);
+    any = any || (lanes_[lane]->done_ && lanes_[lane]->status_ != EstimateStatus::diverged);
   }
   if (!any) return;
   lagged_ = information_.lagged(moved_.data());
   if (stretches_)
     lagged_ += stretches_->lag().sum(ends_, moved_, information_, stretches_->of_whole());
   for (std::size_t lane = 0; lane < used_; ++lane)
-    if (lanes_[lane]->done_ && lanes_[lane]->status_ == EstimateStatus::ok)
+    if (lanes_[lane]->done_ && lanes_[lane]->status_ != EstimateStatus::diverged)
       report(*lanes_[lane], lane);
 }
 
@@ -55,9 +55,17 @@ void IteratedLanes::settle(IteratedJob& job, std::size_t l) {
   ++job.passes_;
   // No component is longer, in its sigma, than the whole step is in the metric of the covariance,
   // d (1 + information) d.
-  const bool small = right < 1.0, last = job.passes_ == IteratedPasses::most_passes;
-  job.done_ = small || last ||
-              (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff() < 1.0;
+  if (right < 1.0) {
+    job.done_ = true;
+    return;
+  }
+  const double step = (job.moved_.array().abs() / job.P_.diagonal().array().sqrt()).maxCoeff();
+  const bool last = job.passes_ == IteratedPasses::most_passes;
+  job.done_ = last || step < 1.0;
+  if (!last || step < 1.0) return;
+  job.status_ = EstimateStatus::not_converged;
+  job.t_diverged_ = timeline_.intervals.back().t1;
+  job.cause_ = IteratedPasses::still_moves(step);
 }
 
 /// What is told of a job after its last pass.
