@@ -48,8 +48,9 @@ std::string headline_of(const StudyResults& results, const Pair& pair) {
         off_text(s) + unclaimed_text(filter) + diverged_text(s));
   std::string text = fmt::format(
       "{} ({}): in {} of the runs some parameter that the filter claims to know is more than 5 "
-      "sigma off; silent failures, where nothing in the run shows it: {}",
-      start, model_in_words(lacks), rate_cell(s.wrong).text, rate_cell(s.silent).text);
+      "sigma off{}; silent failures, where nothing in the run shows it: {}",
+      start, model_in_words(lacks), rate_cell(s.wrong).text,
+      s.diverged.hits > 0 ? ", or the filter diverged" : "", rate_cell(s.silent).text);
   const std::size_t k = worst_parameter(filter, claims_of(results));
   if (k < filter.errors().size())
     text += fmt::format("; worst {}: its error is {} times its sigma", key_at(filter, k),
