@@ -75,8 +75,8 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
            "study, another recording tells whether it comes again.";
   if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
     return fmt::format(
-        "Next: more than one effect seems to be missing. Diagnose again with the first in the "
-        "model: --set \"filter.{}.terms+={}\".",
+        "Next: more than one effect, or one of another shape, seems to be missing. Diagnose again "
+        "with the first in the model: --set \"filter.{}.terms+={}\".",
         d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
   return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice.front());
 }
