@@ -137,6 +137,17 @@ void check_phase(const Recording& r, Problems& problems) {
                    "0 (dwell) or 1 (slew)", "Correct the phase");
 }
 
+/// What to do about a value that is too large.
+std::string fix_of_unreasonable(const Channel& c, double x) {
+  return fmt::format(
+      "Check the unit and the export{}; if it stands for not measured, say in "
+      "[recording] of the study file missing = [{:g}]",
+      c.name == "temperature" ? " (kelvins are temperature = \"its header as it stands, then [K]\" "
+                                "in columns of [recording], or [K] in the header)"
+                              : "",
+      x / c.unit.to_si);
+}
+
 void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
   bool measured = false;
   for (const auto& c : r.channels) {
@@ -147,23 +158,19 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
                             ? quantity->most
                             : std::numeric_limits<double>::max();
     const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
+    std::string fix;  // of the first: rows with the same one are one message
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       const double x = c.values[i];
-      if (std::isinf(x))
+      if (std::isinf(x)) {
         problems.add(place_in(r, i, c.name), "the value is infinite", "a finite number",
                      "Leave the cell empty (nan) if it was not measured");
-      else if (std::abs(x) > most)
+      } else if (std::abs(x) > most) {
+        if (fix.empty()) fix = fix_of_unreasonable(c, x);
         problems.add(
             place_in(r, i, c.name),
             fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
-            fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
-            fmt::format("Check the unit and the export{}; if it stands for not measured, say in "
-                        "[recording] of the study file missing = [{:g}]",
-                        c.name == "temperature"
-                            ? " (kelvins are temperature = \"its header as it stands, then [K]\" "
-                              "in columns of [recording], or [K] in the header)"
-                            : "",
-                        x / c.unit.to_si));
+            fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()), fix);
+      }
       if (std::isnan(x) && command)
         problems.add(place_in(r, i, c.name), "the command is missing",
                      "the commanded rate in every row", "Give the command, 0 if there was none");

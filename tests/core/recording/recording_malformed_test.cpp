@@ -194,6 +194,17 @@ TEST(MalformedRecording, TheSameMistakeInSeveralColumnsIsOneMessage) {
   EXPECT_EQ(a.text.find("gee", a.text.find("'gee'") + 5), std::string::npos) << a.text;
 }
 
+TEST(MalformedRecording, ValuesBeyondReasonAreOneMessageWhateverTheyAre) {
+  const test::Folder folder;  // kelvins, each another number
+  std::string text = "time [s],position,acc_x [g],acc_y [g],acc_z [g],temperature [degC]\n";
+  for (int i = 1; i <= 20; ++i) text += fmt::format("{},1,0,0,1,{}\n", i, 293.15 + 0.25 * i);
+  const std::string said = answer(folder.write("k.csv", text), RecordingKind::platform).text;
+  EXPECT_NE(said.find("k.csv:2:temperature: the value 293.4 is beyond reason"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("(19 more of the kind, the last in line 21)"), std::string::npos) << said;
+  EXPECT_EQ(said.find("beyond reason"), said.rfind("beyond reason")) << said;
+}
+
 TEST(MalformedRecording, WhatCannotBeReadIsAnIoError) {
   const Folder folder;
   std::filesystem::create_directory(folder / "dir.csv");
