@@ -34,6 +34,7 @@ struct Point {
   double dof = 1.0;
   Theta theta = Theta::Zero();
   std::vector<Vec3> psi0_l = {};
+  double of_priors = 0.0;  ///< part of the cost
   double per_dof() const { return cost / dof; }
 };
 
@@ -71,6 +72,7 @@ class Latitudes {
       p.theta = theta_of(filter_, fit);
       p.psi0_l = fit.psi0_l;
       p.cost = fit.estimate.statistic;
+      p.of_priors = p.cost - fit.data_chi2;
       p.dof = static_cast<double>(std::max<std::size_t>(1, fit.estimate.measured));
     } catch (const InputError&) {
       // No case heading holds this plan at that latitude.
@@ -121,7 +123,7 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const FilterSpec& filter, Reach reach) {
   const Latitudes latitudes(study, recordings, filter);
   const double declared = study.site.latitude;
-  const Point before = latitudes.at({declared}).front();
+  Point before = latitudes.at({declared}).front();
   if (!std::isfinite(before.cost) || before.per_dof() <= 1.0) return std::nullopt;
   Point best = before;
   const auto take = [&](const std::vector<Point>& points) {
@@ -178,12 +180,18 @@ std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
   follow({2.0, 2.0, 2.0, 0.2});
   take(latitudes.at({-best.latitude}));  // the mirrored valley is nearly as deep
   follow({0.2, 0.02, 0.005});
+  // The way there may have led out of a local minimum: then the declared latitude does as well.
+  if (const Point again = latitudes.beside(best, {declared}).front(); again.cost < before.cost)
+    before = again;
   LatitudeDoubt doubt{
       best.latitude,    declared,       information > 0.0 ? 1.0 / std::sqrt(information) : 0.0,
       before.per_dof(), best.per_dof(), stats::misfit_chance(best.per_dof(), best.dof)};
   const double gain = (before.cost - best.cost) / std::max(1.0, best.per_dof());
   doubt.weigh(gain);
   if (!doubt.evident()) return std::nullopt;
+  // Both hemispheres leave one trace but for isotropic D_I: their priors tell which it is. What the
+  // data gain beside them is another local minimum's.
+  if (doubt.is_on_other_hemisphere() && best.of_priors >= before.of_priors) return std::nullopt;
   doubt.mirrored = doubt.is_on_other_hemisphere() && gain > inference::FitLimits::mirrored;
   if (!doubt.explains() && !doubt.mirrored) return std::nullopt;
   if (!doubt.explains()) return doubt;

@@ -69,10 +69,12 @@ enum class Reach { everywhere, where_it_promises };
 ///
 /// Given where it is more than three prior sigmas of latitude_error off and takes away 90 % of what
 /// the filter leaves above its degrees of freedom, or where it is on the other hemisphere and fits
-/// far better, whatever else misfits: there isotropic D_I hide most of the error. The evidence must
-/// be stronger than studies of another latitude are rare (SiteLimits::another). Where the clock
-/// of the recording is behind it (clock_doubt()) that is given beside it. recordings: made ready
-/// (prepare()). Empty otherwise.
+/// far better, whatever else misfits: there isotropic D_I hide most of the error, so that the
+/// priors must ask for it, too. The declared latitude is fitted from the parameters found at the
+/// other as well: another valley of a parameter is no latitude. The evidence must be stronger than
+/// studies of another latitude are rare (SiteLimits::another). Where the clock of the recording is
+/// behind it (clock_doubt()) that is given beside it. recordings: made ready (prepare()). Empty
+/// otherwise.
 std::optional<LatitudeDoubt> latitude_doubt(const mc::Study& study,
                                             const std::vector<Recording>& recordings,
                                             const FilterSpec& filter,
