@@ -21,7 +21,6 @@ enum class Purpose : std::uint32_t {
   drift_level = 20,    ///< which of two levels a bistable drift is on
   wrong_samples = 21,  ///< outliers
   environment = 22,    ///< fluctuations of temperature
-  bootstrap = 23,      ///< resampling of results
   test = 100,
 };
 
