@@ -23,6 +23,15 @@ std::string less_noise_text(const FilterView& v) {
       v.spec().name, chi2_text(v));
 }
 
+/// Parameters of combinations that no position of a laboratory shows.
+ParamMask hidden_anywhere(const FilterView& v) {
+  ParamMask hidden;
+  for (const NamedDirection& d : unseen_directions(v))
+    for (const NamedDirection::Part& part : d.parts)
+      if (d.anywhere) hidden.set(part.param);
+  return hidden;
+}
+
 }  // namespace
 
 std::string outside_text(const FilterView& v) {
@@ -66,11 +75,12 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
       j.first_less_noise = less;
       j.first_far = far_from_prior(v);
     }
+    const ParamMask hidden = s.filter == 0 ? hidden_anywhere(v) : ParamMask();
     for (std::size_t k = 0; k < s.layout.size(); ++k) {
       const Worth worth = verdict_of(v, k).worth;
       j.wrong = j.wrong || worth == Worth::wrong;
       const bool lacking = worth == Worth::prior_only || worth == Worth::sum_only;
-      j.unlearned = j.unlearned || (lacking && s.filter == 0);
+      j.unlearned = j.unlearned || (lacking && s.filter == 0 && !hidden[s.layout.params[k]]);
     }
   }
   j.favoured = identification::favoured(study, id, good);

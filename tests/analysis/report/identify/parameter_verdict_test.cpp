@@ -52,6 +52,36 @@ TEST(ParameterVerdict, IsInASumAloneWhereThePriorDecidesMostOfItsVariance) {
   EXPECT_NE(said.find("2 known in sums with others alone"), std::string::npos) << said;
 }
 
+TEST(ParameterVerdict, IsLearnedWhateverDecidesTheRestOfAVarianceThatIsSmall) {
+  // A hundredth of the prior's sigma is left, all of it along a direction that no datum sees.
+  Fitted f;
+  VecX unseen = VecX::Zero(static_cast<Eigen::Index>(f.id.summaries[0].layout.size()));
+  unseen[1] = 0.01;
+  unseen[2] = std::sqrt(1.0 - 0.01 * 0.01);
+  f.id.summaries[0].unseen = {{0.0, unseen}};
+  f.parameter(1).sigma = 0.01 * f.parameter(1).prior_sigma;
+  EXPECT_EQ(f.verdict(1).worth, Worth::learned);
+}
+
+TEST(ParameterVerdict, WhatToDoNextIsOfTheTestAsItWas) {
+  Fitted f;
+  const auto next = [&] { return report::identification_in_brief(f.study, f.id).next; };
+  const auto learn_nothing = [&](std::size_t run) {
+    ParameterEstimate& p = f.id.runs[run].batch.estimate.parameters[3];
+    p.sigma = 0.99 * p.prior_sigma;
+  };
+  ASSERT_NE(f.id.runs.back().filter, 0u);
+  learn_nothing(f.id.runs.size() - 1);  // `rank` proposes positions for the first filter
+  EXPECT_EQ(next().find("driftscope rank"), std::string::npos) << next();
+  learn_nothing(0);
+  EXPECT_NE(next().find("driftscope rank"), std::string::npos) << next();
+  EXPECT_EQ(next().find("readout"), std::string::npos) << next();
+  f.id.absent = {"gimbal_outer", "gimbal_middle", "gimbal_inner"};
+  EXPECT_NE(next().find("--set readout.gimbals=false"), std::string::npos) << next();
+  f.id.absent_positions = {4};
+  EXPECT_EQ(next().find("Next: record position 4"), 0u) << next();
+}
+
 TEST(ParameterVerdict, WhatToDoNextRunsWhereAFilterNeedsTheTemperature) {
   // A plan has no temperature unless [environment] says one: rank alone would end with exit 4.
   Fitted f;
