@@ -6,7 +6,7 @@
 set(DRIFT_FULL_TESTS
   Advise.* AllanFit.* AdviceFollowed.* BetweenPoints.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* ClockDoubt.* CoarseReadout.* Crossed*.* DamageTold.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
   Equation.* IsolatedSamplesOfSlews.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FoldersOfOthers.* HeadingDoubt.* LambdaFilter.* Matched*.*
-  Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
+  Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* PolarLatitude.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* SizeBeyondPrior.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.* WrongHemisphere.*
   SweepPictures.* UnequalRowsDiagnosed.* UnknownField.* WhereFollows.*)
