@@ -61,9 +61,9 @@ double step_with_losses(const std::vector<double>& steps, double of_phase) {
 
 /// The usual one of the steps around a row. Where every other row is lost the median is that of
 /// gaps: a quarter of the steps that are as usual in the whole phase tell it from longer rows, and
-/// so do uneven steps.
-double usual_of(std::vector<double> steps, double of_phase) {
-  const double with_losses = step_with_losses(steps, of_phase);
+/// so do uneven steps of rows that name a position: what names none may be read now and then.
+double usual_of(std::vector<double> steps, double of_phase, bool names_position) {
+  const double with_losses = names_position ? step_with_losses(steps, of_phase) : nan_value;
   std::ranges::sort(steps);
   const double median = steps[steps.size() / 2], quartile = steps[(steps.size() - 1) / 4];
   if (!(median > 1.5 * of_phase)) return median;
@@ -73,7 +73,7 @@ double usual_of(std::vector<double> steps, double of_phase) {
 
 /// The usual step around each row of a stretch. Its first row says how far it is from another
 /// stretch, which is no evidence of its own steps.
-void fill_usual(const SpacedRows& s, double of_phase, RowSpacing& out) {
+void fill_usual(const SpacedRows& s, double of_phase, bool names_position, RowSpacing& out) {
   const std::size_t own = s.first + 1;
   for (std::size_t row = s.first; row < s.end; ++row) {
     const std::size_t centre = std::max(row, own);
@@ -81,7 +81,7 @@ void fill_usual(const SpacedRows& s, double of_phase, RowSpacing& out) {
     const std::size_t to = std::min(s.end, centre + reach + 1);
     out.usual[row] = usual_of({out.step.begin() + static_cast<std::ptrdiff_t>(from),
                                out.step.begin() + static_cast<std::ptrdiff_t>(to)},
-                              of_phase);
+                              of_phase, names_position);
   }
 }
 
@@ -167,7 +167,7 @@ RowSpacing row_spacing(const Recording& recording, const std::vector<double>& pl
   for (const SpacedRows& s : stretches) {
     const double usual = of_phase[s.phase == 1.0 ? 1 : 0].seconds(samples[s.first]);
     if (s.end - s.first > few_steps)
-      fill_usual(s, usual, out);
+      fill_usual(s, usual, recording.find("position") != nullptr, out);
     else
       std::fill(out.usual.begin() + static_cast<std::ptrdiff_t>(s.first),
                 out.usual.begin() + static_cast<std::ptrdiff_t>(s.end),

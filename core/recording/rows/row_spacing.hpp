@@ -17,9 +17,10 @@ struct RowSpacing {
   /// What is usual around the row [s]: the median of the steps of the nearest rows of the same
   /// position and phase, so that rows 1 s apart in slews and 60 s apart in dwells are both usual.
   /// Where those steps are unevenly one to a few of the phase's usual one, rows are lost, half of
-  /// them or more, and that one is usual. A stretch of eight rows or fewer is like the others of
-  /// its phase, in seconds or in samples of the plan, or by its own steps where those are alike
-  /// and, if there is a plan, as planned. NaN where the recording does not tell.
+  /// them or more, and that one is usual (of a recording that names positions). A stretch of eight
+  /// rows or fewer is like the others of its phase, in seconds or in samples of the plan, or by its
+  /// own steps where those are alike and, if there is a plan, as planned. NaN where the recording
+  /// does not tell.
   std::vector<double> usual;
 
   /// Rows are missing in front of this one: halfway to one missing row. (At the first row of a

@@ -105,6 +105,13 @@ TEST(RowSpacing, UnevenStepsOfThoseThatAreUsualAreLostRows) {
   }
 }
 
+TEST(RowSpacing, WhatNamesNoPositionMayBeReadNowAndThen) {
+  Recording r = minutes_and({1.0, 2.0, 3.0, 1.0, 3.0, 2.0, 2.0, 3.0, 2.0, 2.0, 3.0, 2.0, 2.0, 3.0});
+  EXPECT_NEAR(row_spacing(r).usual[68], 60.0, 1e-9);
+  r.channels.pop_back();
+  EXPECT_DOUBLE_EQ(row_spacing(r).usual[68], 120.0);
+}
+
 TEST(RowSpacing, EvenStepsAreMeansOverLonger) {
   // Of 120 s throughout, with one lost, with one of 60 s between; and far longer than is usual.
   std::vector<double> even(12, 2.0), lost = even, split = even, far(16, 60.0);
