@@ -14,10 +14,10 @@ struct Judgement {
   std::vector<std::string> less_noise;  ///< good ones with less noise than declared, how much less
   std::vector<std::string> leave_more;  ///< the other good ones where there are such
   std::optional<identification::FavouredFilter> favoured;  ///< one of the good ones, if any is
-  bool wrong = false;                  ///< a filter that fits has a parameter that is wrong
-  bool unlearned = false;  ///< the first filter, which `rank` improves, lacks one that a position
-                           ///< may show
-  bool first_fits = false;             ///< the first filter, which `diagnose` would examine
+  bool wrong = false;       ///< a filter that fits has a parameter that is wrong
+  bool unlearned = false;   ///< the first filter, which `rank` improves, lacks one that a position
+                            ///< may show
+  bool first_fits = false;  ///< the first filter, which `diagnose` would examine
   bool first_favoured = true;          ///< no other one is more probable
   bool first_less_noise = false;       ///< it fits with less noise than declared
   std::vector<std::string> first_far;  ///< its parameters far from their priors (far_from_prior())

@@ -114,6 +114,17 @@ double cell_number(std::string_view cell) {
   return parsed.kind == ParsedCell::Kind::number ? parsed.value : std::nan("");
 }
 
+bool is_all_nines(std::string_view cell) {
+  const std::size_t first = cell.starts_with('-') || cell.starts_with('+') ? 1 : 0;
+  const std::size_t mark = std::min(cell.find_first_of(".,"), cell.size());
+  const auto only = [](std::string_view digits) {
+    return digits.find_first_not_of('9') == std::string_view::npos;
+  };
+  std::string_view behind = cell.substr(std::min(mark + 1, cell.size()));
+  behind = behind.substr(0, behind.find_last_not_of('0') + 1);
+  return mark >= first + 3 && only(cell.substr(first, mark - first)) && only(behind);
+}
+
 std::string lower_case(std::string_view text) {
   std::string out(text);
   for (char& c : out)

@@ -47,6 +47,10 @@ bool begins_like_number(std::string_view cell);
 /// The number in a cell, with point or comma; NaN for none.
 double cell_number(std::string_view cell);
 
+/// Three nines and more and no other digit but zeros behind the mark, as loggers write what was not
+/// measured: -9999, 999.99, 99999.000.
+bool is_all_nines(std::string_view cell);
+
 /// Text in lower case; letters of ASCII alone.
 std::string lower_case(std::string_view text);
 

@@ -32,18 +32,6 @@ namespace {
 
 constexpr std::size_t most_words = 100;
 
-/// Three nines and more and no other digit but zeros behind the mark: -9999, 999.99, 99999.000.
-bool is_all_nines(std::string_view cell) {
-  const std::size_t first = cell.starts_with('-') || cell.starts_with('+') ? 1 : 0;
-  const std::size_t mark = std::min(cell.find_first_of(".,"), cell.size());
-  const auto only = [](std::string_view digits) {
-    return digits.find_first_not_of('9') == std::string_view::npos;
-  };
-  std::string_view behind = cell.substr(std::min(mark + 1, cell.size()));
-  behind = behind.substr(0, behind.find_last_not_of('0') + 1);
-  return mark >= first + 3 && only(cell.substr(first, mark - first)) && only(behind);
-}
-
 /// Counts what stands in the cells of a column.
 void look_at(GuessedColumn& column, std::string_view cell) {
   if (cell.empty()) return;
