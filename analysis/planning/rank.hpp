@@ -13,7 +13,7 @@
 namespace drift::planning {
 
 /// Learning ratios of a parameter at other points than the one the plan is linearised at: at four
-/// truths drawn from what [truth] leaves open, without one from the priors.
+/// truths drawn from [truth], without one from the priors.
 struct Elsewhere {
   static constexpr double factor = 1.5;  ///< between ratios: worth a line
   double low = 0.0, high = 0.0;

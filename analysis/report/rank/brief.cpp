@@ -13,6 +13,7 @@ constexpr double half_known = 0.5, hardly_known = 0.9;  // of the prior sigma
 struct Seen {
   const planning::ModelRanking& model;
   std::vector<NamedDirection> unseen;
+  std::string_view drawn_from;  ///< of the truths elsewhere
 
   bool whole() const {
     return unseen.empty() && std::ranges::none_of(model.ranking.parameters, [](const auto& p) {
@@ -25,7 +26,8 @@ std::vector<Seen> seen_by(const planning::PlanRanking& rank) {
   std::vector<Seen> all;
   for (const planning::RankingGroup& g : rank.groups)
     for (const planning::ModelRanking& m : g.models)
-      if (m.of_the_file()) all.push_back({m, unseen_directions(m)});
+      if (m.of_the_file())
+        all.push_back({m, unseen_directions(m), source_of_truths(rank.at_truth)});
   return all;
 }
 
@@ -122,9 +124,9 @@ std::string seen_text(const Seen& s, const std::string& said_before) {
                         listed_up_to(unseen, most));
   if (!hidden.empty())
     said += fmt::format(
-        "; not seen where the plan is linearised, but at truths drawn from the priors (what is "
+        "; not seen where the plan is linearised, but at truths drawn from {} (what is "
         "left of the prior sigma at four): {}",
-        listed_up_to(hidden, most));
+        s.drawn_from, listed_up_to(hidden, most));
   const std::string combinations = combinations_of(s.unseen);
   if (!combinations.empty() && combinations == said_before)
     return said + "; the same combinations are not seen.";
@@ -132,12 +134,12 @@ std::string seen_text(const Seen& s, const std::string& said_before) {
 }
 
 /// What a sigma is where the truth lies elsewhere, if that is something else.
-std::string range_text(const observability::Ranking& r, std::size_t k,
-                       const planning::Elsewhere& e) {
+std::string range_text(const observability::Ranking& r, std::size_t k, const planning::Elsewhere& e,
+                       bool at_truth) {
   if (!e.other_than(r.learning_ratio(k))) return "";
   const double prior = r.parameters[k].prior_sigma / unit_of(r.parameters[k].param);
-  return fmt::format(" ({} to {} at four truths drawn from the priors)", number_text(prior * e.low),
-                     number_text(prior * e.high));
+  return fmt::format(" ({} to {} at four truths drawn from {})", number_text(prior * e.low),
+                     number_text(prior * e.high), source_of_truths(at_truth));
 }
 
 /// Whether the proposed positions do anything to the parameter that was asked for; of a criterion
@@ -181,7 +183,7 @@ std::string gain_text(const planning::PlanRanking& rank) {
                                 number_text(before.parameters[k].posterior_sigma / unit),
                                 number_text(after.parameters[k].posterior_sigma / unit),
                                 symbol == "1" ? "" : " ", symbol == "1" ? "" : symbol,
-                                range_text(after, k, rank.better->elsewhere[k])));
+                                range_text(after, k, rank.better->elsewhere[k], rank.at_truth)));
   }
   if (!gains(rank)) {
     const std::size_t k = asked.front();

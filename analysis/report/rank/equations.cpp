@@ -51,9 +51,8 @@ Section elsewhere(const RankedGroup& v) {
       t.add({parameter_cell(m.ranking.layout.params[k]), here, span_cell(e.low, e.high)});
     }
     if (t.rows.empty())
-      t.note =
-          fmt::format("No sigma changes by more than a factor {} at truths drawn from the priors.",
-                      planning::Elsewhere::factor);
+      t.note = fmt::format("No sigma changes by more than a factor {} at truths drawn from {}.",
+                           planning::Elsewhere::factor, source_of_truths(v.study.has_truth));
     section.add({t});
   }
   return section;

@@ -22,6 +22,11 @@ DRIFT_SECTIONS(RankedGroup, group_sections, (learning, evidence), (equations, ho
 /// The positions proposed and what they bring; nothing where none were asked for.
 Section improvement(const mc::Study& study, const planning::PlanRanking& rank);
 
+/// Where truths are drawn from, other than the point of the ranking.
+inline std::string_view source_of_truths(bool at_truth) {
+  return at_truth ? "[truth]" : "the priors";
+}
+
 /// Of several models a terminal shows the first.
 inline On shown_of(std::size_t model) {
   return model == 0 ? On::both : On::page;

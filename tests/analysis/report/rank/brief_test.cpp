@@ -126,5 +126,30 @@ mode   = "level"
   EXPECT_EQ(whole.brief.next, "");
 }
 
+TEST(RankBrief, SaysWhereTruthsAreDrawnFrom) {
+  // eta_x is seen by D_I_z times it: not at D_I_z = 0, where the plan is linearised.
+  const std::string terms = "terms = [\"D_F\", \"D_I_z\", \"eta_x\"]\n";
+  const std::string study = R"(schema = 1
+[site]
+latitude = "45.75 deg"
+[plan]
+dwell  = "60 min"
+sample = "10 min"
+mode   = "free"
+[[plan.position]]
+axes = "x=N y=W z=U"
+[[plan.position]]
+axes = "x=N y=U z=E"
+[[filter]]
+name = "f"
+coupling = "eq6"
+)" + terms;
+  const Answer priors(study), truth(study + "[truth]\ncoupling = \"eq6\"\n" + terms);
+  EXPECT_TRUE(has(priors.brief.verdict, "at truths drawn from the priors (what"))
+      << priors.brief.verdict;
+  EXPECT_TRUE(has(truth.brief.verdict, "at truths drawn from [truth] (what"))
+      << truth.brief.verdict;
+}
+
 }  // namespace
 }  // namespace drift::rank_brief_test
