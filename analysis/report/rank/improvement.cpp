@@ -58,10 +58,11 @@ Figure gain_figure(const Gains& g) {
   return figure_of(
       std::move(chart),
       fmt::format("Expected gain from all proposed positions.{}",
-                  others > 0 ? fmt::format(" {} parameters gain less, or nothing: they are in "
-                                           "the table.",
-                                           others)
-                             : ""),
+                  others == 0 ? ""
+                  : others == 1
+                      ? " 1 parameter gains less, or nothing: it is in the table."
+                      : fmt::format(" {} parameters gain less, or nothing: they are in the table.",
+                                    others)),
       "improvement.svg");
 }
 
