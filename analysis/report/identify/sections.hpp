@@ -104,7 +104,7 @@ inline const MatX& root_of(const FilterView& v) {
 }
 inline std::vector<NamedDirection> unseen_directions(const FilterView& v) {
   return name_degeneracies(v.summary.layout, v.spec().mounting,
-                           {v.summary.unseen, root_of(v), v.id.excitation});
+                           {v.summary.unseen, root_of(v), v.id.excitation, v.spec().coupling});
 }
 
 /// What a fit is worth by its chi-square alone: "ok" inside the 95 % band of a right model,

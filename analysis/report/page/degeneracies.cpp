@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -21,6 +22,10 @@ MatX rows_of(const std::vector<WeakDirection>& directions, Eigen::Index n) {
     rows.row(r) = directions[static_cast<std::size_t>(r)].direction.transpose();
   return rows;
 }
+
+constexpr const char* turned_drift_reason =
+    "misalignment with drift: by eq. (6) in free drift it turns drift to another axis alone (E u), "
+    "and the gyro there may drift so itself";
 
 std::string limit_text() {
   return number_text(std::sqrt(unseen_information));  // [sigma] per prior sigma
@@ -51,6 +56,7 @@ class Writer {
       out.reason = no_signal_reason(out.parts.front().param, exact, mounting_, space_.excitation);
     } else {
       out.unrounded = exact ? 0.0 : signal_of(v);
+      out.reason = turned_drift(out) ? turned_drift_reason : "";
     }
     return out;
   }
@@ -95,6 +101,23 @@ class Writer {
           (size == "1" ? "" : size + " ") + std::string(TermLibrary::specs[param(k)].key.view());
     }
     return out;
+  }
+
+  /// Whether it is of misalignments and of drifts, where the former do no more than turn the
+  /// latter: by eq. (6) without commands (physics.md 1.8).
+  bool turned_drift(const NamedDirection& direction) const {
+    const auto of = [](const NamedDirection::Part& part, std::string_view term) {
+      return TermLibrary::owner(part.param).key == term;
+    };
+    const auto misalignment = [&](const auto& part) { return of(part, "gyro_misalignment"); };
+    const auto either = [&](const auto& part) {
+      return misalignment(part) || of(part, "fixed_drift") || of(part, "g_drift") ||
+             of(part, "g2_drift");
+    };
+    return space_.coupling == Coupling::eq6 &&
+           std::ranges::none_of(space_.excitation.commanded, std::identity()) &&
+           std::ranges::any_of(direction.parts, misalignment) &&
+           std::ranges::all_of(direction.parts, either);
   }
 
   VecX as_written(const NamedDirection& direction) const {

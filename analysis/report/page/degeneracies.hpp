@@ -5,6 +5,7 @@
 
 #include "analysis/report/page/table.hpp"
 #include "core/estimate/batch.hpp"
+#include "core/physics/coupling.hpp"
 #include "core/physics/triads.hpp"
 #include "core/plan/excitation.hpp"
 
@@ -31,6 +32,7 @@ struct UnseenSpace {
   const std::vector<WeakDirection>& directions;  ///< weak_directions() below unseen_information
   const MatX& information_root;                  ///< of which they are; shape (n, n) of the layout
   const Excitation& excitation;                  ///< of the test
+  Coupling coupling = Coupling::eq5;             ///< of the model
 };
 
 /// Directions that a test does not see, in a readable basis: those of which rounding alone is left

@@ -33,12 +33,14 @@ bool same_rows(const Table& a, const Table& b) {
 
 std::vector<NamedDirection> unseen_directions(const planning::ModelRanking& m) {
   const observability::Ranking& r = m.ranking;
-  return name_degeneracies(r.layout, m.model.spec.mounting, {r.unseen, r.root, r.excitation});
+  return name_degeneracies(r.layout, m.model.spec.mounting,
+                           {r.unseen, r.root, r.excitation, m.model.spec.coupling});
 }
 
 std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& m) {
   const observability::Ranking& r = m.ranking;
-  return name_degeneracies(r.layout, m.model.spec.mounting, {r.unheld, r.root_unheld, r.excitation},
+  return name_degeneracies(r.layout, m.model.spec.mounting,
+                           {r.unheld, r.root_unheld, r.excitation, m.model.spec.coupling},
                            r.unseen);
 }
 

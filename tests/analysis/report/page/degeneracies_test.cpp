@@ -54,8 +54,8 @@ struct Unseen {
     directions.push_back({signal * signal, unit});
     root += (signal * unit - root * unit) * unit.transpose();
   }
-  std::vector<report::NamedDirection> named(const Layout& l) const {
-    return report::name_degeneracies(l, {}, {directions, root, excitation});
+  std::vector<report::NamedDirection> named(const Layout& l, Coupling of = Coupling::eq5) const {
+    return report::name_degeneracies(l, {}, {directions, root, excitation, of});
   }
 };
 
@@ -217,6 +217,22 @@ TEST(NameDegeneracies, SaysNoSignalOfWhatHasNoneAlone) {
   EXPECT_NEAR(named[2].signal, 5e-4, 1e-6);
   EXPECT_EQ(report::unseen_text(space.directions, space.root),
             "1 is not seen at all, 2 leave less than 0.001 sigma at a prior sigma");
+}
+
+TEST(NameDegeneracies, KnowsThatEquation6TurnsDriftAloneInFreeDrift) {
+  // D_I_z = 1.45 deg/h/g turned by eta_x is D_S_x: 206265 / 1.45 arcsec for 1 deg/h/g.
+  const Layout l = layout();
+  Unseen space(l, {{{"D_S_x", 1.0}, {"eta_x", 142252.0}}, {{"D_S_y", 1.0}, {"K0_x", 10.0}}});
+  const auto reason = [&](Coupling coupling, std::string_view first) -> std::string {
+    for (const auto& d : space.named(l, coupling))
+      if (d.combination.starts_with(first)) return d.reason;
+    return "not there";
+  };
+  EXPECT_NE(reason(Coupling::eq6, "D_S_x").find("turns drift"), std::string::npos);
+  EXPECT_EQ(reason(Coupling::eq6, "D_S_y"), "");  // what has no misalignment in it
+  EXPECT_EQ(reason(Coupling::eq5, "D_S_x"), "");  // which turns the Earth's rate, too
+  space.excitation.commanded[1] = true;           // and so do commands
+  EXPECT_EQ(reason(Coupling::eq6, "D_S_x"), "");
 }
 
 TEST(NameDegeneracies, GivesAReasonThatTheTestHas) {
