@@ -155,7 +155,7 @@ bool gains(const planning::PlanRanking& rank) {
 }
 
 /// What is ranked, and for whom: "eq5 (filter corrected)".
-std::string model_text(const planning::ModelRanking& m) {
+std::string filter_text(const planning::ModelRanking& m) {
   return fmt::format("{} (filter {})", key_of(m.model.spec.coupling), m.filters);
 }
 
@@ -190,7 +190,7 @@ std::string gain_text(const planning::PlanRanking& rank) {
     const bool product = first.elsewhere[k].other_than(before.learning_ratio(k));
     return fmt::format(
         "No better plan was found for {} under {}: {} further position{} bring{} {}. {}",
-        better.criterion.text, model_text(first), better.steps.size(), plural(better.steps.size()),
+        better.criterion.text, filter_text(first), better.steps.size(), plural(better.steps.size()),
         better.steps.size() == 1 ? "s" : "", listed(parts, "and"),
         product ? "It is in a product that is not seen where the plan is linearised: give the "
                   "numbers of the others in [truth.parameters], and it is linearised there."
@@ -201,7 +201,7 @@ std::string gain_text(const planning::PlanRanking& rank) {
                              : better.criterion.kind == Kind::D ? "in bits (criterion D)"
                                                                 : "for " + better.criterion.text;
   return fmt::format("A better plan under {}, {}: {} further position{} ({} h) bring{} {}.",
-                     model_text(first), judged, better.steps.size(), plural(better.steps.size()),
+                     filter_text(first), judged, better.steps.size(), plural(better.steps.size()),
                      number_text(better.added() / 3600.0), better.steps.size() == 1 ? "s" : "",
                      listed(parts, "and"));
 }
@@ -236,7 +236,7 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
   if (rank.better) brief.more.add(Weight::note, gain_text(rank));
   std::string said_before;
   for (const Seen& s : seen) {
-    const std::string said = fmt::format("{}: {}", model_text(s.model), seen_text(s, said_before));
+    const std::string said = fmt::format("{}: {}", filter_text(s.model), seen_text(s, said_before));
     said_before = combinations_of(s.unseen);
     if (brief.verdict.empty())
       brief.verdict = "Seen under " + said;
