@@ -26,19 +26,30 @@ std::string worst_text(const FilterStatistics& filter, double claims) {
                      number_text(filter.errors()[k].deception().value));
 }
 
+/// Where the estimates of the table start: the first start of every filter.
+std::string start_text(const StudyResults& results) {
+  bool listed = false;
+  for (const mc::StudyPoint& point : results.points)
+    for (const FilterSpec& f : point.study.filters)
+      listed = listed || (!f.starts.empty() && !f.starts.front().empty());
+  return listed ? "Filters started at the first of filter.starts, the prior mean where it says "
+                  "nothing (start 1)"
+                : "Filters started at the prior mean (start 1)";
+}
+
 /// Truth x filter: consistency, health, silent failures, the worst parameter.
 Table crossed_table(const StudyResults& results) {
   Table table(
       "Truth against filter",
       "<truth | <filter | runs | NIS/dof | NEES/dof | cover 2s % | healthy % | wrong % | "
       "silent failures | worst: RMSE/sigma",
-      fmt::format("Filters started at the prior mean (start 1); other starts: report. NIS, NEES "
+      fmt::format("{1}; other starts: report. NIS, NEES "
                   "per degree of freedom: 1 for an honest filter; NEES over the directions it "
                   "learned (sigma below {0} of the prior's). Healthy: NIS inside its 95 % band. "
                   "Wrong: some parameter whose sigma is below {0} of its prior is more than 5 "
                   "sigma off, or the filter diverged. Silent: wrong and healthy, 95 % interval "
                   "(Wilson). RMSE/sigma and coverage: of parameters with such sigmas.",
-                  claims_of(results)));
+                  claims_of(results), start_text(results)));
   std::string condition = "-";
   for (const Pair& pair : pairs_of(results)) {
     const mc::StudyPoint& point = results.points[pair.point];

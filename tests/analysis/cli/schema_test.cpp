@@ -181,5 +181,18 @@ TEST(Schema, NamesUnitRangeAndChoices) {
   EXPECT_EQ(schema.at("required"), json({"schema"}));
 }
 
+TEST(Schema, SaysThatStartsMayBeListed) {
+  const Validator schema = the_schema();
+  const std::string filter = "schema = 1\n[[filter]]\nname = \"a\"\ncoupling = \"eq5\"\nstarts = ";
+  EXPECT_EQ(schema.wrong(filter + "3\n"), "");
+  EXPECT_EQ(schema.wrong(filter + "[{}, { D_F_x = \"0.1 deg/h\" }]\n"), "");
+  EXPECT_NE(schema.wrong(filter + "[3]\n"), "");
+  const json starts = schema.schema.at(
+      json::json_pointer("/properties/filter/items/properties/starts/description"));
+  EXPECT_EQ(starts,
+            "filter[].starts: a whole number from 1 to 1000, or a list of tables: what each start "
+            "has other than the prior means");
+}
+
 }  // namespace
 }  // namespace drift::schema_test
