@@ -51,10 +51,18 @@ std::vector<std::string> split(const std::string& key) {
   return parts;
 }
 
+/// What an element of a list is called: its `name`, of a [[term]] its `key`; null if it has none.
+const Node* name_of(const Node& item) {
+  for (const char* key : {"name", "key"})
+    if (const Node* name = item.find(key); name != nullptr && name->is(Node::Kind::string))
+      return name;
+  return nullptr;
+}
+
 Node& element(Node& list, const std::string& part, const std::string& key) {
   std::vector<std::string_view> names;
   for (auto& item : list.items)
-    if (const Node* name = item.find("name"); name != nullptr && name->is(Node::Kind::string)) {
+    if (const Node* name = name_of(item); name != nullptr) {
       if (name->text == part) return item;
       names.push_back(name->text);
     }

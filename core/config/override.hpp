@@ -9,9 +9,10 @@ namespace drift::config {
 
 /// Replaces or adds one value of the tree, as `--set key=value` asks. `key` is dotted, with quotes
 /// around parts that hold dots; an element of a list is addressed by its number from 0 or, for
-/// [[filter]] and [[plan.position]], by its `name`: filter.corrected.coupling. Missing tables on
-/// the way are created; whether the key means anything is for the strict reader to say. InputError
-/// (config), naming `--set key`, if the way leads nowhere or the value is broken.
+/// [[filter]] and [[plan.position]], by its `name`, for [[term]] by its `key`:
+/// filter.corrected.coupling. Missing tables on the way are created; whether the key means anything
+/// is for the strict reader to say. InputError (config), naming `--set key`, if the way leads
+/// nowhere or the value is broken.
 void apply_override(Node& root, const std::string& key, std::string_view value);
 
 /// The same, but a table is laid over the one that is there: what it does not name stays as it is.

@@ -135,6 +135,23 @@ TEST(Override, ReplacesAddsAndAddressesByNumberAndName) {
   EXPECT_TRUE(root.find("readout")->find("gimbals")->is(Node::Kind::boolean));
 }
 
+TEST(Override, ATermIsAddressedByItsKey) {
+  Node root = parse_document(
+      "[[term]]\nkey = \"mine\"\n[[term]]\nkey = \"1st\"\nparameters = { P = { value = 37 } }\n",
+      "t");
+  apply_override(root, "term.1st.parameters.P.value", "40");
+  apply_override(root, "term.0.equation", "A");
+  EXPECT_EQ(root.find("term")->items[1].find("parameters")->find("P")->find("value")->integer, 40);
+  EXPECT_EQ(root.find("term")->items[0].find("equation")->text, "A");
+  try {
+    apply_override(root, "term.mien.equation", "B");
+    ADD_FAILURE() << "there is none of that key";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no element named 'mien'"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("'mine'"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Override, AWayThatLeadsNowhereIsRefusedByItsKey) {
   for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
            {"filter.two.coupling", "eq5"},
