@@ -63,7 +63,9 @@ Cell p_cell(double p_value) {
 }
 
 Cell span_cell(double low, double high) {
-  return {std::vector{low, high}, fmt::format("{} to {}", number_text(low), number_text(high))};
+  return {std::vector{low, high}, std::isfinite(low) || std::isfinite(high)
+                                      ? fmt::format("{} to {}", number_text(low), number_text(high))
+                                      : "-"};
 }
 
 Cell only_value(Value value) {

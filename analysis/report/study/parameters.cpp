@@ -62,14 +62,16 @@ Table parameter_table(const StudyResults& results, const Pair& pair) {
     const Tone tone = deception.low > 2.0   ? Tone::bad
                       : deception.low > 1.1 ? Tone::doubtful
                                             : Tone::plain;
-    table.add({parameter_key(param), parameter_unit(param),
-               Cell(bias, fmt::format("{}±{}", number_text(bias, 2),
-                                      number_text(e.bias().half_width() / unit, 2))),
-               rmse.value / unit, span_cell(rmse.low / unit, rmse.high / unit),
-               e.mean_sigma() / unit, rmse.value / e.prior_sigma(), e.learning(),
-               digits(deception.value, 3, tone), percent_cell(e.coverage()[0].value()),
-               percent_cell(e.coverage()[1].value()), percent_cell(e.coverage()[2].value()),
-               digits(f.health()[k].start_ratio(), 2), percent_cell(f.health()[k].silent.value())});
+    table.add(
+        {parameter_key(param), parameter_unit(param),
+         Cell(bias, std::isfinite(bias) ? fmt::format("{}±{}", number_text(bias, 2),
+                                                      number_text(e.bias().half_width() / unit, 2))
+                                        : "-"),
+         rmse.value / unit, span_cell(rmse.low / unit, rmse.high / unit), e.mean_sigma() / unit,
+         rmse.value / e.prior_sigma(), e.learning(), digits(deception.value, 3, tone),
+         percent_cell(e.coverage()[0].value()), percent_cell(e.coverage()[1].value()),
+         percent_cell(e.coverage()[2].value()), digits(f.health()[k].start_ratio(), 2),
+         percent_cell(f.health()[k].silent.value())});
   }
   return table;
 }

@@ -83,6 +83,13 @@ TEST(Table, TextColumnsLineUp) {
             "a note\n");
 }
 
+TEST(Table, AnIntervalThatIsNotKnownIsADash) {
+  const double none = std::nan("");
+  EXPECT_EQ(report::span_cell(0.5, 2.0).text, "0.5 to 2");
+  EXPECT_EQ(report::span_cell(0.5, none).text, "0.5 to -");
+  EXPECT_EQ(report::span_cell(none, none).text, "-");
+}
+
 TEST(Table, HtmlIsWellFormedAndEscaped) {
   const std::string html = report::html_of(sample());
   EXPECT_EQ(test::xml_problem("<p>" + html + "</p>").value_or(""), "");
