@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace drift::diagnosis {
 namespace {
@@ -13,21 +14,27 @@ constexpr const char* channel_names[inference::num_channels] = {
 /// Sums over the rows of one channel, position or cell.
 struct Sum {
   double product = 0.0, signature2 = 0.0, residual2 = 0.0, rows = 0.0;
-  void add(double s, double r) {
-    product += s * r;
-    signature2 += s * s;
+  bool of_excess = false;  ///< no signature is known
+  void add(std::optional<double> s, double r) {
+    of_excess = !s;
+    product += s.value_or(0.0) * r;
+    signature2 += s.value_or(0.0) * s.value_or(0.0);
     residual2 += r * r;
     rows += 1.0;
   }
+  /// What is shared out: its product with a signature, whose noise is the signature's length; else
+  /// what chi-square is above its rows, of variance 2 each.
+  double part() const { return of_excess ? residual2 - rows : product; }
+  double part_sigma() const { return std::sqrt(of_excess ? 2.0 * rows : signature2); }
   double chi2_per_dof() const { return rows > 0.0 ? residual2 / rows : 1.0; }
   double z() const { return rows > 0.0 ? (residual2 / rows - 1.0) * std::sqrt(0.5 * rows) : 0.0; }
 };
 
-/// Shares of the positive parts, so that they sum to one; sigma from the noise of the product.
+/// Shares of the positive parts, so that they sum to one; sigma from the noise of the part.
 Share make_share(const Sum& s, double total) {
   Share out;
-  out.share = total > 0.0 ? std::max(0.0, s.product) / total : 0.0;
-  out.sigma = total > 0.0 ? std::sqrt(s.signature2) / total : 0.0;
+  out.share = total > 0.0 ? std::max(0.0, s.part()) / total : 0.0;
+  out.sigma = total > 0.0 ? s.part_sigma() / total : 0.0;
   out.chi2_per_dof = s.chi2_per_dof();
   out.z = s.z();
   return out;
@@ -35,7 +42,7 @@ Share make_share(const Sum& s, double total) {
 
 double positive_total(const auto& sums) {
   double total = 0.0;
-  for (const auto& [key, s] : sums) total += std::max(0.0, s.product);
+  for (const auto& [key, s] : sums) total += std::max(0.0, s.part());
   return total;
 }
 
@@ -69,22 +76,8 @@ VecX signature_of(const inference::Projector& projector,
   return projector.clean_extra(columns) * amplitude;
 }
 
-VecX signature_of(const inference::MeasuredRows& rows, const Timeline& timeline,
-                  const inference::Projector& projector, const inference::Window& window) {
-  MatX box = inference::window_signature(rows, timeline, window, 0, rows.rows());
-  // What the box does after its chain has ended is nothing.
-  const int chain = timeline.intervals[window.first].chain;
-  for (Eigen::Index k = 0; k < rows.rows(); ++k)
-    if (timeline.intervals[rows.tags[k].interval].chain != chain) box(k, 0) = 0.0;
-  const double norm = box.norm();
-  if (norm > 0.0) box /= norm;
-  const inference::Projector::Scan p = projector.scan(box, 0);
-  if (!(p.C(0, 0) > 0.0)) return VecX::Zero(rows.rows());
-  return projector.clean(projector.whitener().apply(box)) * (p.g[0] / p.C(0, 0));
-}
-
 Where locate(const search::Fitted& e, const search::ChanceThresholds& thresholds,
-             const VecX& signature, std::size_t most_windows) {
+             const std::optional<VecX>& signature, std::size_t most_windows) {
   Where out;
   out.channel_names.assign(std::begin(channel_names), std::end(channel_names));
   const VecX residual = e.projector->clean_residual();
@@ -92,9 +85,10 @@ Where locate(const search::Fitted& e, const search::ChanceThresholds& thresholds
   std::map<std::pair<int, int>, Sum> cells;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
     const inference::RowTag& t = e.problem.tags[k];
-    channels[t.channel].add(signature[k], residual[k]);
-    positions[t.position].add(signature[k], residual[k]);
-    cells[{t.position, t.channel}].add(signature[k], residual[k]);
+    const std::optional<double> s = signature ? std::optional((*signature)[k]) : std::nullopt;
+    channels[t.channel].add(s, residual[k]);
+    positions[t.position].add(s, residual[k]);
+    cells[{t.position, t.channel}].add(s, residual[k]);
   }
   double total = positive_total(channels);
   for (const auto& [channel, s] : channels) {
@@ -109,7 +103,7 @@ Where locate(const search::Fitted& e, const search::ChanceThresholds& thresholds
   total = positive_total(cells);
   for (const auto& [cell, s] : cells)
     out.heat.push_back(
-        {cell.first + 1, cell.second, total > 0.0 ? s.product / total : 0.0, s.chi2_per_dof()});
+        {cell.first + 1, cell.second, total > 0.0 ? s.part() / total : 0.0, s.chi2_per_dof()});
   sort_by_share(out.channels);
   sort_by_share(out.positions);
 

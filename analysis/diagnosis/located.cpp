@@ -156,13 +156,13 @@ Located located(const search::Fitted& nominal, const search::Search& found, cons
   const inference::PeriodicInput* period =
       judged.verdict == Verdict::unexplained && !judged.one_gyro ? nominal.leading_period()
                                                                  : nullptr;
-  VecX signature = VecX::Zero(nominal.problem.rows());
+  // Where nothing explains it: what the nearest effect takes, or one window, is a part that was
+  // chosen for being where it is.
+  std::optional<VecX> signature;
   if (period)
     signature = inference::trace_of(*period, nominal.problem, *nominal.projector);
-  else if (best)
+  else if (best && judged.verdict != Verdict::unexplained)
     signature = signature_of(inference::Projector(shown, nominal.noise.model), cause);
-  else if (window)
-    signature = signature_of(nominal.problem, timeline, *nominal.projector, *window);
   Located out{locate(nominal, found.thresholds, signature, most_windows), {}};
   std::vector<search::Cause> named;
   if (judged.verdict == Verdict::named)

@@ -7,8 +7,9 @@
 
 namespace drift::diagnosis {
 
-/// A part of the misfit that the nominal model leaves: `share` of the strongest location's T falls
-/// on it; shares of all parts sum to 1. z: studentised excess of its mean square over 1.
+/// A part of the misfit that the nominal model leaves: `share` of what the cause or the period
+/// explains falls on it; where nothing explains it, of the excess of chi-square over the rows.
+/// Shares of all parts sum to 1. z: studentised excess of its mean square over 1.
 struct Share {
   std::string name = {};  ///< "acc_y", "gimbal_middle"; empty for positions
   int position = 0;       ///< 1-based; 0 for channels

@@ -36,6 +36,22 @@ std::string equations_text(const Where& where) {
   return listed(words, "and");
 }
 
+/// ", most of it at positions 3 (41 %) and 7 (20 %)"; fewer than half are no most.
+std::string at_positions_text(const std::vector<Share>& positions) {
+  std::vector<std::string> parts;
+  double sum = 0.0;
+  for (const Share& s : positions)
+    if (parts.size() < 3 && s.share > 0.1) {
+      parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
+      sum += s.share;
+    }
+  if (parts.empty()) return "";
+  const std::string_view s = parts.size() > 1 ? "s" : "";
+  return sum > 0.5 ? fmt::format(", most of it at position{} {}", s, listed(parts, "and"))
+                   : fmt::format(", the largest part{0} of it at position{0} {1}", s,
+                                 listed(parts, "and"));
+}
+
 }  // namespace
 
 std::string label_of(const Cause& c) {
@@ -151,13 +167,7 @@ std::string where_sentence(const Where& where) {
     if (parts.size() < 2 && s.share > 0.1)
       parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
   if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
-  parts.clear();
-  for (const Share& s : where.positions)
-    if (parts.size() < 3 && s.share > 0.1)
-      parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
-  if (!parts.empty())
-    out += fmt::format(", most of it at position{} {}", parts.size() > 1 ? "s" : "",
-                       listed(parts, "and"));
+  out += at_positions_text(where.positions);
   if (std::isfinite(where.onset_s)) {
     out += "; it " + onset_text(where.onset_s, where.recordings);
   } else if (!where.windows.empty()) {
