@@ -63,7 +63,7 @@ TEST(NotConverged, AnEstimateThatStillMovesIsNone) {
     EXPECT_EQ(row[f.at(0, C::status)],
               static_cast<double>(converged ? EstimateStatus::ok : EstimateStatus::not_converged));
     EXPECT_EQ(out.status, converged ? mc::RunStatus::ok : mc::RunStatus::filter_diverged);
-    EXPECT_EQ(out.cause.starts_with("f: filter not converged (the last of 4 passes moves a "),
+    EXPECT_EQ(out.cause.starts_with("f: filter not converged (the last of 8 passes moves a "),
               !converged)
         << out.cause;
     EXPECT_EQ(std::isnan(row[f.estimate(0, 0)]), !converged);
