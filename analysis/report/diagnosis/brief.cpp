@@ -4,6 +4,7 @@
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/form_words.hpp"
+#include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -47,6 +48,9 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: correct {}, or widen it to hold what the fit takes, and diagnose again.", priors);
   if (off_zero && d.verdict != Verdict::consistent)
     return "Next: correct the zero, or its offset, and diagnose again.";
+  if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);
+      !own.empty() && d.verdict != Verdict::consistent)
+    return own;
   if (d.verdict == Verdict::ambiguous && remark_in<remark::TimesInstead>(d) != nullptr)
     return "Next: look up the sample interval of the log, before anything is added to the plan.";
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
@@ -147,6 +151,9 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
                                                                               : Weight::doubtful;
   if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
+  if (!d.wrong_study())
+    add(Weight::doubtful, "Not examined",
+        own_not_examined_text(d.not_examined, d.where.recordings));
   brief.next = next_step(d, off_zero);
   return brief;
 }

@@ -1,6 +1,7 @@
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -8,6 +9,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/words.hpp"
+#include "core/physics/own/own_terms.hpp"
 
 namespace drift::report {
 
@@ -43,11 +45,28 @@ std::string in_which(const NotExamined& left_out, const RecordingSpans& recordin
   return lacking.empty() ? "" : " in " + lacking;
 }
 
-std::vector<NotExamined> lacking_covariate(const std::vector<NotExamined>& all) {
+/// Of the study itself, or of the library.
+enum class Origin { study, library };
+
+std::vector<NotExamined> lacking_covariate(const std::vector<NotExamined>& all, Origin origin) {
   std::vector<NotExamined> lacking;
-  std::ranges::copy_if(all, std::back_inserter(lacking),
-                       [](const NotExamined& n) { return n.why == Why::no_covariate; });
+  std::ranges::copy_if(all, std::back_inserter(lacking), [&](const NotExamined& n) {
+    const bool own =
+        std::ranges::find(own_terms().terms, n.term, &OwnTerm::key) != own_terms().terms.end();
+    return n.why == Why::no_covariate && own == (origin == Origin::study);
+  });
   return lacking;
+}
+
+/// What a term lacks: "the temperature", "the column oil".
+std::string lacked_in_words(const NotExamined& left_out) {
+  std::vector<std::string> words;
+  for (const CovariateSpec& c : known_covariates)
+    if ((left_out.missing & c.set()) != 0) words.push_back(fmt::format("the {}", c.what));
+  for (std::size_t k = 0; k < own_terms().covariates.size(); ++k)
+    if ((left_out.missing & further_column(k)) != 0)
+      words.push_back(fmt::format("the column {}", own_terms().covariates[k]));
+  return words.empty() ? "what it follows" : listed(words, "and");
 }
 
 /// Why several terms were not examined: the same text for the same reason.
@@ -132,7 +151,8 @@ std::string unexamined_twins_text(const std::vector<NotExamined>& all) {
 std::string lacking_covariate_text(const std::vector<NotExamined>& all,
                                    const RecordingSpans& recordings) {
   std::string text;
-  for (const std::string& sentence : not_examined_sentences(lacking_covariate(all), recordings))
+  for (const std::string& sentence :
+       not_examined_sentences(lacking_covariate(all, Origin::library), recordings))
     text += " " + sentence + ".";
   return text;
 }
@@ -140,7 +160,7 @@ std::string lacking_covariate_text(const std::vector<NotExamined>& all,
 std::string followed_text(const std::vector<NotExamined>& all, const RecordingSpans& recordings) {
   std::vector<std::string> followed;
   std::set<std::string> in;
-  for (const NotExamined& n : lacking_covariate(all))
+  for (const NotExamined& n : lacking_covariate(all, Origin::library))
     if (const CovariateSpec* c = lacked_by(n);
         c != nullptr && !c->is_vector() && n.instead.empty()) {
       if (std::ranges::find(followed, c->what) == followed.end()) followed.emplace_back(c->what);
@@ -151,6 +171,34 @@ std::string followed_text(const std::vector<NotExamined>& all, const RecordingSp
       " What wanders may follow the {}, which {} not recorded{}: record {} to tell it from noise.",
       listed(followed, "and the"), followed.size() > 1 ? "were" : "was",
       in.size() == 1 ? *in.begin() : "", followed.size() > 1 ? "them" : "it");
+}
+
+std::string own_not_examined_text(const std::vector<NotExamined>& all,
+                                  const RecordingSpans& recordings) {
+  std::vector<std::string> parts;
+  for (const NotExamined& n : lacking_covariate(all, Origin::study)) {
+    const std::string names = lacking_in_words(n, recordings);
+    parts.push_back(fmt::format(
+        "{}, a term of the study: {}", n.term,
+        !n.instead.empty() ? n.instead
+                           : fmt::format("{} lack{} {}", names.empty() ? "the recording" : names,
+                                         n.lacking.size() > 1 ? "" : "s", lacked_in_words(n))));
+  }
+  return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
+}
+
+std::string own_not_examined_next(const std::vector<NotExamined>& all,
+                                  const RecordingSpans& recordings) {
+  const std::vector<NotExamined> own = lacking_covariate(all, Origin::study);
+  if (own.empty()) return "";
+  const NotExamined& first = own.front();
+  const std::string names = lacking_in_words(first, recordings);
+  return fmt::format(
+      "Next: give {} {}{}, and diagnose again: {}, a term of the study, was not examined.",
+      names.empty() ? "the recording" : names, lacked_in_words(first),
+      names.empty() ? ""
+                    : fmt::format(", or leave {} out", first.lacking.size() > 1 ? "them" : "it"),
+      first.term);
 }
 
 }  // namespace drift::report

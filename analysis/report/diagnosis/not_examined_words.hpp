@@ -24,7 +24,7 @@ std::vector<std::string> not_examined_sentences(const std::vector<diagnosis::Not
 std::string unexamined_twins_text(const std::vector<diagnosis::NotExamined>& all);
 
 /// " Not examined: temperature_drift: the temperature was not recorded.": of what is unexplained,
-/// it may be that; empty if nothing was left out for want of a covariate.
+/// it may be that; empty if nothing of the library was left out for want of a covariate.
 std::string lacking_covariate_text(const std::vector<diagnosis::NotExamined>& all,
                                    const RecordingSpans& recordings);
 
@@ -32,5 +32,15 @@ std::string lacking_covariate_text(const std::vector<diagnosis::NotExamined>& al
 /// noise."; empty where nothing was left out for want of a covariate that varies.
 std::string followed_text(const std::vector<diagnosis::NotExamined>& all,
                           const RecordingSpans& recordings);
+
+/// "mine, a term of the study: b.csv lacks the column oil.": the study asks for it, so a short
+/// answer does, too; empty if none of its own terms was left out for want of a covariate.
+std::string own_not_examined_text(const std::vector<diagnosis::NotExamined>& all,
+                                  const RecordingSpans& recordings);
+
+/// "Next: give b.csv the column oil, or leave it out, and diagnose again: ..." of the first such
+/// term; or empty.
+std::string own_not_examined_next(const std::vector<diagnosis::NotExamined>& all,
+                                  const RecordingSpans& recordings);
 
 }  // namespace drift::report
