@@ -27,10 +27,13 @@ std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings) {
     Covariate v{c.name, {}};
     for (const Recording& r : recordings) {
       const Channel* other = r.find(c.name);
-      if (other)
-        v.value.insert(v.value.end(), other->values.begin(), other->values.end());
-      else
+      if (other == nullptr || other->unit.dim != c.unit.dim) {
         v.value.insert(v.value.end(), r.rows(), std::nan(""));
+        continue;
+      }
+      // Kelvins in one and degC in another.
+      const double zero = celsius_offset(other->unit) - celsius_offset(c.unit);
+      for (const double x : other->values) v.value.push_back(x + zero);
     }
     all.push_back(std::move(v));
   }

@@ -15,7 +15,7 @@ struct Covariate {
 };
 
 /// Everything that recordings hold beside the platform's own channels, one after another; NaN where
-/// one of them lacks it.
+/// one of them lacks it, or has another quantity under its name.
 std::vector<Covariate> covariates_of(const std::vector<Recording>& recordings);
 
 /// Messages about terms of the study's filters that need the temperature, where the recording has

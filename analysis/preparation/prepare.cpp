@@ -10,6 +10,7 @@
 
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/covariates.hpp"
+#include "analysis/preparation/covariates/own_columns.hpp"
 #include "analysis/preparation/covariates/stepped_covariates.hpp"
 #include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gimbal_branch.hpp"
@@ -227,6 +228,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
       wrong.push_back(std::move(text));
     positions.merge(positions_of(r));
   }
+  for (std::string& text : mistakes_of_own_columns(p.recordings, p.remarks))
+    wrong.push_back(std::move(text));
   // As long as rows are those of the files.
   const Rounding rounding = rounding_of(p.recordings);
   const std::vector<SteppedCovariate> stepped = stepped_covariates(p.recordings);
