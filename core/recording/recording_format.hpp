@@ -64,7 +64,9 @@ struct RecordingFormat {
   std::vector<MappedColumn> columns;
   std::vector<std::pair<std::string, int>> positions;  ///< text -> number of the plan's position
   std::vector<ChannelOffset> offsets;
-  std::vector<std::string> ignore;   ///< headers in the file
+  std::vector<std::string> ignore;  ///< headers in the file
+  /// Columns that terms of the study itself follow, by their own names: known without a channel.
+  std::vector<std::string> of_terms = {};
   std::vector<std::string> missing;  ///< cells that stand for what was not measured: "-9999"
   std::vector<std::string> header;   ///< of a text file without a header row; empty: it has one
   Delimiter delimiter = Delimiter::automatic;

@@ -173,6 +173,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   study.recording = read_recording_format(top.section("recording"), plan.kind, positions);
   study.environment = read_environment(top.section("environment"));
   read_terms_into_library(top, plan.kind);
+  study.recording.of_terms = own_terms().covariates;
   const Node* sweep = top.take("sweep");
   // A blind study has truths of several couplings too.
   const bool swept = sweeps(sweep, "truth.coupling") || top.has("blind");

@@ -221,7 +221,9 @@ class Assignment {
           renamed.push_back(fmt::format("{} as {}", in_quotes(cell.name), name));
       }
       uses_[i].channel = name;
-      if (looks_like_temperature(cell)) temperatures.push_back(cell);
+      // One that a term follows by its name would be lost to it as the temperature.
+      const bool followed = std::ranges::find(format_.of_terms, name) != format_.of_terms.end();
+      if (looks_like_temperature(cell) && !followed) temperatures.push_back(cell);
     }
     if (is_used("temperature")) temperatures.clear();
   }

@@ -235,6 +235,10 @@ TEST(OwnFile, ATemperatureThatNothingIsMappedToIsSaidWithTheLineToWrite) {
     EXPECT_EQ(r.find("temperature"), nullptr);
     EXPECT_NE(r.unmapped_temperature.find("write temperature = \""), std::string::npos)
         << header << testing::PrintToString(r.remarks.texts());
+    auto of_terms = format;  // a term of the study follows it by the name that it has now
+    of_terms.of_terms = {r.channels.at(5).name};
+    EXPECT_EQ(read_recording(path, of_terms, RecordingKind::platform, gravity).unmapped_temperature,
+              "");
   }
 }
 

@@ -125,11 +125,13 @@ TEST_F(OwnTermsConfig, TheNextStudyBringsItsOwn) {
 }
 
 TEST_F(OwnTermsConfig, ColumnsOfTheRecordingAreKnownByTheirNames) {
-  read_text(head +
-            own_term("rumble", "drift.x", "A*pressure + B*pressure*humidity",
-                     "A = { unit = 'deg/h', prior = 1 }, B = { unit = 'deg/h', prior = 1 }") +
-            own_term("other", "drift.y", "A*humidity", "A = { unit = 'deg/h', prior = 1 }"));
+  const mc::Study study =
+      read_text(head +
+                own_term("rumble", "drift.x", "A*pressure + B*pressure*humidity",
+                         "A = { unit = 'deg/h', prior = 1 }, B = { unit = 'deg/h', prior = 1 }") +
+                own_term("other", "drift.y", "A*humidity", "A = { unit = 'deg/h', prior = 1 }"));
   EXPECT_EQ(own_terms().covariates, (std::vector<std::string>{"pressure", "humidity"}));
+  EXPECT_EQ(study.recording.of_terms, own_terms().covariates);
   EXPECT_EQ(TermLibrary::owner(param("rumble_A")).needs.covariates,
             further_column(0) | further_column(1));
   EXPECT_EQ(TermLibrary::owner(param("other_A")).needs.covariates, further_column(1));
