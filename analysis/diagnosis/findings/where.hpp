@@ -21,7 +21,7 @@ struct Share {
 struct HeatCell {
   int position = 0;    ///< 1-based
   int channel = 0;     ///< index into Where::channel_names
-  double share = 0.0;  ///< part of the located misfit, signed as its sum
+  double share = 0.0;  ///< as Share::share, signed
   double chi2_per_dof = 1.0;
 };
 

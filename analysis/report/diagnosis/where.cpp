@@ -39,7 +39,8 @@ Blocks heat_figure(const Where& where, bool consistent) {
       consistent ? "Residuals of each channel and position against their noise. Cells of few "
                    "samples scatter; together they show nothing significant."
                  : "Share of each channel and position in the misfit that the nominal model "
-                   "leaves. Negative shares speak against the located effect.",
+                   "leaves. Negative shares speak against the located effect, or are less than "
+                   "noise leaves where nothing explains it.",
       "where.svg")};
 }
 
