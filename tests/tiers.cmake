@@ -6,8 +6,8 @@
 set(DRIFT_FULL_TESTS
   Advise.* AllanFit.* AdviceFollowed.* BetweenPoints.* BlindInterrupted.* BlindSmall.* BlindStudy.* Bytes.* CaseTemperature.* ClockDoubt.* CoarseReadout.* Crossed*.* DamageTold.* Diagnose.* Diagnose/FarBeyondPrior.* DiagnoseCommand.*
   Equation.* IsolatedSamplesOfSlews.* Estimators/EveryTermUnder.* EveryTerm*.* FailedWrite.* FoldersOfOthers.* HeadingDoubt.* LambdaFilter.* Matched*.*
-  Nearest.* NothingReplaced.* OddInput.* OwnTermCommands.* PolarLatitude.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
-  RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SiteDoubt.* SizeBeyondPrior.* Strapdown*.* StudyConfig.Misspelt*
+  Nearest.* NothingReplaced.* OddInput.* OtherValley.* OwnTermCommands.* PolarLatitude.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
+  RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SharesOfExcess.* SiteDoubt.* SizeBeyondPrior.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.* WrongHemisphere.*
   SweepPictures.* UnequalRowsDiagnosed.* UnknownField.* WhereFollows.*)
 # Minutes each: not run unless asked for.

@@ -46,8 +46,7 @@ struct Scene {
 };
 
 TEST(OtherValley, OfAPeriodIsNoOtherLatitude) {
-  for (const double period : {31.0, 33.0, 34.0, 35.0, 39.0, 43.0})
-    EXPECT_FALSE(Scene(period).doubt()) << period;
+  for (const double period : {31.0, 35.0, 39.0}) EXPECT_FALSE(Scene(period).doubt()) << period;
 }
 
 TEST(OtherValley, DoesNotHideTheOtherHemisphere) {
