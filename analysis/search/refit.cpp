@@ -80,11 +80,11 @@ Remainder left_by(const Fitted& after, const inference::CandidateSet& set,
   return out;
 }
 
-/// The filter with a prior as wide as each amplitude that is larger than its own; as the data alone
-/// have it where it lies beyond what its prior makes credible.
+/// The filter with a prior as wide as each amplitude that is larger than its own, as the data have
+/// it where it lies beyond what its prior makes credible.
 struct Room {
   FilterSpec filter;
-  double farthest = 0.0;  ///< the largest of these amplitudes, in sigmas of what was to be expected
+  double farthest = 0.0;  ///< the largest amplitude, in sigmas of what was to be expected
 };
 /// Nothing if none is. What a prior holds back of a large effect its twins would take.
 std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, const Refit& r) {
@@ -97,10 +97,13 @@ std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, cons
       const double off = std::abs(p->value - prior.mean()), sigma = prior.sigma();
       if (!(off > sigma) || !(p->sigma < sigma)) continue;
       const auto alone = inference::without_prior(off, p->sigma, sigma);
+      // Where a prior says more than the data, what these alone have is mostly their noise.
+      const bool seen = 2.0 * p->sigma * p->sigma < sigma * sigma;
+      const double sigmas = seen ? alone.sigmas : off / sigma;
       if (!room) room = {r.filter};
       room->filter.priors[i] =
-          normal(prior.mean(), alone.sigmas > FitLimits::beyond_prior ? alone.off : off);
-      room->farthest = std::max(room->farthest, alone.sigmas);
+          normal(prior.mean(), seen && sigmas > FitLimits::beyond_prior ? alone.off : off);
+      room->farthest = std::max(room->farthest, sigmas);
     }
   return room;
 }
@@ -167,14 +170,6 @@ bool is_another_equation(Coupling nominal, const BatchResult& fit) {
                              WeighLimits::other_lambda * p->sigma;
 }
 
-}  // namespace
-
-NoiseKinds noise_beside(const Fitted& nominal) {
-  return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;
-}
-
-namespace {
-
 /// What a refit is made of and compared with.
 struct Beside {
   const Fitted& nominal;
@@ -235,6 +230,10 @@ bool better(const Refit& a, const Refit& b) {
 }
 
 }  // namespace
+
+NoiseKinds noise_beside(const Fitted& nominal) {
+  return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;
+}
 
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes) {
