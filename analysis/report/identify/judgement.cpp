@@ -26,6 +26,7 @@ std::string less_noise_text(const FilterView& v) {
 /// Parameters of combinations that no position of a laboratory shows.
 ParamMask hidden_anywhere(const FilterView& v) {
   ParamMask hidden;
+  if (root_of(v).size() == 0) return hidden;
   for (const NamedDirection& d : unseen_directions(v))
     for (const NamedDirection::Part& part : d.parts)
       if (d.anywhere) hidden.set(part.param);

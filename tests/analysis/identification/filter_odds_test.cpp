@@ -56,7 +56,7 @@ struct Identified {
   }
   const ParameterEstimate& K0_x(std::size_t filter) const {
     const EstimateResult& fit = id.counted(id.summaries[filter]).batch.estimate;
-    return *fit.find(TermLibrary::find_param("K0_x").value());
+    return *fit.find(TermLibrary::find("K0_x").value());
   }
 };
 

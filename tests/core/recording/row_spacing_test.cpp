@@ -117,7 +117,7 @@ TEST(RowSpacing, EvenStepsAreMeansOverLonger) {
   std::vector<double> even(12, 2.0), lost = even, split = even, far(16, 60.0);
   lost[6] = 4.0;
   split[6] = 1.0;
-  for (const std::size_t k : {3u, 7u, 11u}) far[k] = 1.0;
+  for (const std::size_t k : {2u, 8u, 14u}) far[k] = 1.0;
   for (const auto& [steps, usual] :
        {std::pair{even, 120.0}, {lost, 120.0}, {split, 120.0}, {far, 3600.0}}) {
     const Recording r = minutes_and(steps);

@@ -82,7 +82,8 @@ TEST(NotConverged, AnEstimateThatStillMovesIsNone) {
 }
 
 /// The wrong equation over torqued slews, and most of the terms left out: in runs 0, 1 and 3 the
-/// fourth pass moves a parameter by 22, 17 and 688 sigma, in run 2 by a tenth of one.
+/// fourth pass moves a parameter by 22, 17 and 688 sigma, in run 2 by a tenth of one. The first two
+/// settle with the sixth, the last does not.
 TEST(NotConverged, LanesSayTheSame) {
   const mc::Study study =
       read_text(small_study, {{"plan.preset", "slew12"},
@@ -109,8 +110,9 @@ TEST(NotConverged, LanesSayTheSame) {
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     SCOPED_TRACE(k);
     one.run(measured[k], start);
-    EXPECT_EQ(jobs[k].linear_passes(), IteratedPasses::most_passes);
-    EXPECT_EQ(jobs[k].status(), k == 2 ? EstimateStatus::ok : EstimateStatus::not_converged);
+    const bool settles = k != 3;
+    EXPECT_EQ(jobs[k].linear_passes(), !settles ? IteratedPasses::most_passes : k == 2 ? 4 : 6);
+    EXPECT_EQ(jobs[k].status(), settles ? EstimateStatus::ok : EstimateStatus::not_converged);
     EXPECT_EQ(jobs[k].status(), one.status());
     EXPECT_EQ(jobs[k].cause(), one.cause()) << "in whole sigmas";
     EXPECT_EQ(jobs[k].t_diverged(), one.t_diverged());
