@@ -185,8 +185,9 @@ std::string scatter_line(const Recording& r, const std::vector<preparation::Rest
 }
 
 /// Reads the study as `check` will. What is wrong with one that was made of a recording is said of
-/// that: the study is not written.
-void require_readable(const std::string& study, const NewArguments& a) {
+/// that: the study is not written. long_dwells: long_dwells_text(), or nothing.
+void require_readable(const std::string& study, const NewArguments& a,
+                      const std::string& long_dwells) {
   try {
     mc::read_study_tree(config::parse_document(study, a.output), a.output);
   } catch (const InputError& e) {
@@ -197,6 +198,11 @@ void require_readable(const std::string& study, const NewArguments& a) {
       const auto at = placed ? message.find(": ", a.output.size()) : std::string::npos;
       wrong.push_back(at == std::string::npos ? message : message.substr(at + 2));
     }
+    if (!long_dwells.empty())
+      throw InputError(ExitCode::recording,
+                       fmt::format("{}: the study that is made of it cannot be read, and is not "
+                                   "written: {}. {}",
+                                   a.recording, fmt::join(wrong, ". "), long_dwells));
     throw InputError(
         ExitCode::recording,
         fmt::format("{}: the study that is made of it cannot be read, and is not written: {} "
@@ -236,7 +242,7 @@ ExitCode make_study(const NewArguments& a) {
   const std::string& blanks = seen.blanks;
   const std::string text = study_template(kind, plan, seen.mapping, site),
                     told = blanks.empty() ? text : study_template(kind, plan, seen.told, site);
-  require_readable(told, a);
+  require_readable(told, a, plan ? long_dwells_text(*plan) : "");
   write_text_atomically(a.output, text);
   show("{} is written; what needs your numbers has a comment. Then:\n  driftscope check {}\n",
        a.output, shell_word(a.output));

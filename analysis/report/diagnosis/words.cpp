@@ -215,7 +215,7 @@ std::string held_out_text(const diagnosis::Diagnosis& d, bool several) {
   const bool some_grow =
       held.improves && d.has_patch &&
       std::ranges::any_of(d.errors, [](const diagnosis::ErrorOfKind& k) {
-        return k.after > k.before && number_text(k.after, 3) != number_text(k.before, 3);
+        return k.after > k.before && number_text(k.after, 2) != number_text(k.before, 2);
       });
   return fmt::format("with {}, held-out {} are predicted {}{}", several ? "them" : "it",
                      d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better",

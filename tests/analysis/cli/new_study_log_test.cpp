@@ -116,7 +116,7 @@ TEST(NewStudy, PositionsOfDaysAreAskedAbout) {
   ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
   const auto says = [&](const std::string& file) {
     const Answer a = driftscope("new diagnose " + own + " -o " + folder.file(file));
-    return has(a.out, "is their unit right?");
+    return has(a.out + a.err, "is their unit right?");
   };
   EXPECT_FALSE(says("a.toml"));
   // Milliseconds under a name that says s; without commands the platform may be held.

@@ -35,7 +35,9 @@ TEST(Prepare, AnotherPlanIsSaid) {
   const mc::Study s = test::six_study();
   mc::Study other = s;
   std::swap(other.plan.positions[1], other.plan.positions[4]);
-  EXPECT_NE(message(other, simulated(s)).find("Is this the plan"), std::string::npos);
+  EXPECT_NE(message(other, simulated(s)).find("in which they were held: 1, 5, 3, 4, 2, 6."),
+            std::string::npos)
+      << message(other, simulated(s));
   mc::Study few = s;
   few.plan.positions.resize(3);
   EXPECT_NE(message(few, simulated(s)).find("are not in the plan"), std::string::npos);
