@@ -10,15 +10,15 @@
 namespace drift::identification {
 namespace {
 
-/// Whether two filters are of one test and give the same noise to its rows.
+/// Whether the costs of two fits are of the same data and the same attitudes: the determinant is
+/// that of the parameters alone.
 bool comparable(const mc::Study& study, const Identification& id, const FilterSummary& a,
                 const FilterSummary& b) {
-  const auto &noise = study.filters[a.filter].noise, &other = study.filters[b.filter].noise;
-  return noise.angle_random_walk == other.angle_random_walk &&
+  const FilterSpec &one = study.filters[a.filter], &other = study.filters[b.filter];
+  return one.noise.angle_random_walk == other.noise.angle_random_walk &&
+         one.initial_attitude == other.initial_attitude &&
          id.counted(a).batch.estimate.measured == id.counted(b).batch.estimate.measured;
 }
-
-}  // namespace
 
 std::optional<double> log_evidence(const mc::Study& study, const Identification& id,
                                    const FilterSummary& filter) {
@@ -39,29 +39,44 @@ std::optional<double> log_evidence(const mc::Study& study, const Identification&
   return std::isfinite(evidence) ? std::optional(evidence) : std::nullopt;
 }
 
-std::optional<FavouredFilter> favoured(const mc::Study& study, const Identification& id,
-                                       const std::vector<std::size_t>& summaries) {
-  if (summaries.size() < 2 || id.test_of_each_start) return std::nullopt;
-  std::vector<double> logs;
-  for (const std::size_t k : summaries) {
+}  // namespace
+
+std::vector<std::optional<double>> log_evidences(const mc::Study& study, const Identification& id) {
+  std::vector<std::optional<double>> all(id.summaries.size());
+  if (id.test_of_each_start) return all;
+  const FilterSummary* first = nullptr;
+  for (std::size_t k = 0; k < all.size(); ++k) {
     const FilterSummary& s = id.summaries[k];
-    const auto evidence = log_evidence(study, id, s);
-    if (!evidence || !comparable(study, id, id.summaries[summaries.front()], s))
-      return std::nullopt;
-    logs.push_back(*evidence);
+    const auto own = log_evidence(study, id, s);
+    if (!own || (first != nullptr && !comparable(study, id, *first, s))) continue;
+    if (first == nullptr) first = &s;
+    all[k] = own;
   }
-  const auto best = std::ranges::max_element(logs) - logs.begin();
-  FavouredFilter out;
-  out.filter = id.summaries[summaries[static_cast<std::size_t>(best)]].filter;
-  double against = 0.0;
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    if (k == static_cast<std::size_t>(best)) continue;
-    against += std::exp(logs[k] - logs[static_cast<std::size_t>(best)]);
-    out.others.push_back(id.summaries[summaries[k]].filter);
-  }
-  out.log_odds = -std::log(against);
+  return all;
+}
+
+std::optional<Favoured> favoured(const mc::Study& study, const Identification& id,
+                                 const std::vector<std::size_t>& summaries) {
   constexpr double sure = inference::SearchLimits::credible;
-  return against < (1.0 - sure) / sure ? std::optional(std::move(out)) : std::nullopt;
+  const auto evidences = log_evidences(study, id);
+  if (summaries.empty() ||
+      !std::ranges::all_of(summaries, [&](std::size_t k) { return evidences[k].has_value(); }))
+    return std::nullopt;
+  std::vector<std::size_t> order = summaries;
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return *evidences[k]; });
+  const auto weight = [&](std::size_t k) {
+    return std::exp(*evidences[k] - *evidences[order.front()]);
+  };
+  double whole = 0.0, held = 0.0, left = 0.0;
+  for (const std::size_t k : order) whole += weight(k);
+  Favoured out;
+  for (const std::size_t k : order) {
+    const bool enough = held > sure * whole;
+    (enough ? out.others : out.filters).push_back(id.summaries[k].filter);
+    (enough ? left : held) += weight(k);
+  }
+  out.log_odds = std::log(held / left);
+  return out.others.empty() ? std::nullopt : std::optional(std::move(out));
 }
 
 }  // namespace drift::identification

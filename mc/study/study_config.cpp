@@ -89,6 +89,13 @@ bool can_be_swept(std::string_view key) {
   return !key.starts_with("sweep") && !key.starts_with("schema") && !key.starts_with("term");
 }
 
+/// Whether a sweep changes what decides the attitudes of the plan.
+bool sweeps_the_plan(const std::vector<SweepAxis>& sweep) {
+  return std::ranges::any_of(sweep, [](const SweepAxis& axis) {
+    return axis.key.starts_with("plan") || axis.key.starts_with("site");
+  });
+}
+
 /// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
 void try_sweep(const Node& root, const Study& study) {
   constexpr std::size_t most_messages = 20;
@@ -190,7 +197,9 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   }
   top.finish();
   if (report.errors() == 0) check_stop(report, root, study);
-  if (report.errors() == 0) check_headings(plan, study.site, report);
+  // Of a sweep over the plan the points are read one by one; the file's own may be none of them.
+  if (report.errors() == 0 && !sweeps_the_plan(study.sweep))
+    check_headings(plan, study.site, report);
   return study;
 }
 

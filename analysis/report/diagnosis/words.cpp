@@ -36,12 +36,17 @@ std::string equations_text(const Where& where) {
   return listed(words, "and");
 }
 
+/// A tenth of the misfit and more, and none that noise makes.
+bool is_told(const Share& s) {
+  return s.share > 0.1 && s.share > 2.0 * s.sigma;
+}
+
 /// ", most of it at positions 3 (41 %) and 7 (20 %)"; fewer than half are no most.
 std::string at_positions_text(const std::vector<Share>& positions) {
   std::vector<std::string> parts;
   double sum = 0.0;
   for (const Share& s : positions)
-    if (parts.size() < 3 && s.share > 0.1) {
+    if (parts.size() < 3 && is_told(s)) {
       parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
       sum += s.share;
     }
@@ -164,7 +169,7 @@ std::string where_sentence(const Where& where) {
                         : fmt::format("The misfit is in the {}", equations_text(where));
   std::vector<std::string> parts;
   for (const Share& s : where.channels)
-    if (parts.size() < 2 && s.share > 0.1)
+    if (parts.size() < 2 && is_told(s))
       parts.push_back(fmt::format("{} ({:.0f} %)", channel_in_words(s.name), 100.0 * s.share));
   if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
   out += at_positions_text(where.positions);

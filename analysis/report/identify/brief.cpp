@@ -98,29 +98,35 @@ std::string nearly_text(const std::vector<std::string>& filters) {
                      filters.size() == 1 ? "filter" : "filters", listed(filters, "and"));
 }
 
-/// "4,000 times as probable as six, which fits as well"
-std::string odds_text(const mc::Study& study, const identification::FavouredFilter& favoured) {
+std::vector<std::string> names_of(const mc::Study& study, const std::vector<std::size_t>& filters) {
+  std::vector<std::string> names;
+  for (const std::size_t k : filters) names.push_back(study.filters[k].name);
+  return names;
+}
+
+/// "it is 750 times as probable as six, which fits as well"
+std::string odds_text(const mc::Study& study, const identification::Favoured& favoured) {
   constexpr double most = 1e6;  // beyond it the number says nothing, and a Gaussian is none
   const double odds = std::exp(favoured.log_odds);
-  std::vector<std::string> others;
-  for (const std::size_t k : favoured.others) others.push_back(study.filters[k].name);
-  return fmt::format("{} times as probable as {}{}, which fit{} as well",
+  const bool several = favoured.others.size() > 1;
+  return fmt::format("{} {} times as probable as {}{}, which fit{} as well",
+                     favoured.filters.size() > 1 ? "together they are" : "it is",
                      odds < most ? number_text(odds, 2) : "more than a million",
-                     listed(others, "and"), others.size() > 1 ? " together" : "",
-                     others.size() > 1 ? "" : "s");
+                     listed(names_of(study, favoured.others), "and"), several ? " together" : "",
+                     several ? "" : "s");
 }
 
 /// Which filters to believe where others are not to be, and why.
 template <class JudgedAs>
 std::string believed_text(const mc::Study& study, const Judgement& j, JudgedAs&& judged_as) {
   std::vector<std::string> who = j.good, why, nearly;
-  if (j.favoured) who = {study.filters[j.favoured->filter].name};
+  if (j.favoured) who = names_of(study, j.favoured->filters);
   for (const std::string& name : who)
     if (std::ranges::find(j.nearly, name) != j.nearly.end()) nearly.push_back(name);
   why.push_back(!nearly.empty() ? nearly_text(nearly)
                                 : fmt::format("the residuals are what {}",
                                               who.size() == 1 ? "it expects" : "they expect"));
-  if (j.favoured) why.push_back("it is " + odds_text(study, *j.favoured));
+  if (j.favoured) why.push_back(odds_text(study, *j.favoured));
   why.insert(why.end(), j.bad.begin(), j.bad.end());
   return fmt::format("{} {}.",
                      judged_as(fmt::format("Believe {}{}", listed(who, "and"),

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/identification/filter_odds.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/results_out.hpp"
@@ -118,6 +119,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
   out["absent_positions"] = id.absent_positions;
   out["absent_channels"] = id.absent;  // of [readout]; the estimates are without them
   out["remarks"] = id.remarks;
+  const auto evidences = identification::log_evidences(study, id);
   Json& filters = out["filters"] = Json::array();
   for (const identification::FilterSummary& summary : id.summaries) {
     const FilterSpec& spec = study.filters[summary.filter];
@@ -132,8 +134,8 @@ Json identification_document(const mc::Study& study, const identification::Ident
     f["counted_start"] = id.counted(summary).start + 1;
     const EstimateResult& counted = judged({study, id, summary});
     f["fit"] = fit_key(counted);
-    const auto evidence = identification::log_evidence(study, id, summary);
-    f["log_evidence"] = evidence ? Json(*evidence) : Json(nullptr);  // of two filters: log odds
+    const auto& evidence = evidences[filters.size()];  // differences are log odds
+    f["log_evidence"] = evidence ? Json(*evidence) : Json(nullptr);
     f["noise_of_declared"] =  // 1 sigma of all rows; null where it is not less than declared
         less_noise(counted) ? Json(identification::noise_of_declared(spec, id.counted(summary)))
                             : Json(nullptr);

@@ -1,5 +1,7 @@
 #include "analysis/report/identify/judgement.hpp"
 
+#include <algorithm>
+
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::report {
@@ -85,7 +87,8 @@ Judgement judgement_of(const mc::Study& study, const identification::Identificat
     }
   }
   j.favoured = identification::favoured(study, id, good);
-  j.first_favoured = !j.favoured || j.favoured->filter == 0;
+  j.first_favoured = !j.favoured || std::ranges::find(j.favoured->filters, std::size_t{0}) !=
+                                        j.favoured->filters.end();
   if (j.less_noise.empty()) j.leave_more.clear();
   return j;
 }

@@ -13,7 +13,7 @@ struct Judgement {
   std::vector<std::string> nearly;     ///< names of good ones that few right models fit as badly as
   std::vector<std::string> less_noise;  ///< good ones with less noise than declared, how much less
   std::vector<std::string> leave_more;  ///< the other good ones where there are such
-  std::optional<identification::FavouredFilter> favoured;  ///< one of the good ones, if any is
+  std::optional<identification::Favoured> favoured;  ///< some of the good ones, if any are
   bool wrong = false;       ///< a filter that fits has a parameter that is wrong
   bool unlearned = false;   ///< the first filter, which `rank` improves, lacks one that a position
                             ///< may show

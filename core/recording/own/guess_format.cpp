@@ -100,16 +100,26 @@ std::string guessed_unit_of(const GuessedColumn& c, const std::string& gravity) 
 
 void leave_out_nines(GuessedFile& file) {
   constexpr double farther = 10.0;
-  for (GuessedColumn& c : file.columns) {
-    if (c.nines.empty() || !(c.low_beside <= c.high_beside) || c.channel == "time" ||
-        c.channel == "position" || c.header.name == file.format.counter ||
-        c.header.name == file.counter)
-      continue;
+  const auto may_lack = [&](const GuessedColumn& c) {
+    return c.channel != "time" && c.channel != "position" && c.header.name != file.format.counter &&
+           c.header.name != file.counter;
+  };
+  const auto far = [&](const GuessedColumn& c) {
     const double others = std::max(-c.low_beside, c.high_beside);
-    const auto far = [&](const std::string& cell) {
-      return std::abs(cell_number(cell)) > farther * others;
-    };
-    if (!std::ranges::all_of(c.nines, far)) continue;
+    return !c.nines.empty() && c.low_beside <= c.high_beside &&
+           std::ranges::all_of(c.nines, [&](const std::string& cell) {
+             return std::abs(cell_number(cell)) > farther * others;
+           });
+  };
+  // What stands for nothing in one column may be a reading of another.
+  const auto is_read = [&](double number) {
+    return std::ranges::any_of(file.columns, [&](const GuessedColumn& c) {
+      return may_lack(c) && !far(c) &&
+             std::ranges::find(c.nines, number, cell_number) != c.nines.end();
+    });
+  };
+  for (GuessedColumn& c : file.columns) {
+    if (!may_lack(c) || !far(c) || std::ranges::any_of(c.nines, is_read, cell_number)) continue;
     c.low = c.low_beside;
     c.high = c.high_beside;
     for (const std::string& cell : c.nines)

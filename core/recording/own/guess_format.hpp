@@ -10,7 +10,8 @@ std::string guessed_unit_of(const GuessedColumn& column, const std::string& grav
 
 /// Numbers of nothing but nines that are ten times farther from zero than any other of their
 /// column stand for what was not measured: for `missing` of the format, and out of the limits of
-/// the column. Of columns that are measured or unknown; a time or a number counts on.
+/// the column. Of columns that are measured or unknown, a time or a number counts on; and not where
+/// another one reads that number.
 void leave_out_nines(GuessedFile& file);
 
 /// How the file is read as the channels that its columns may be, and whether that is all it needs.

@@ -21,16 +21,14 @@ std::string held_order_advice(const std::vector<double>& position) {
   if (std::set<double>(held.begin(), held.end()).size() < held.size())
     return "Number them 1, 2, 3 and so on as they were held, anew each time, and put "
            "[[plan.position]] of the study file into that order";
-  std::vector<std::string> numbers, pairs;
-  for (const double p : held) {
-    numbers.push_back(fmt::format("{}", p));
-    pairs.push_back(fmt::format("\"{}\" = {}", p, pairs.size() + 1));
-  }
+  std::vector<std::string> numbers;
+  for (const double p : held) numbers.push_back(fmt::format("{}", p));
   return fmt::format(
-      "Put [[plan.position]] of the study file into the order in which they were held, {}, and say "
-      "in its [recording] which is which then: positions = {{ {} }}. `driftscope new diagnose` "
-      "with this file writes both, as its gimbals show",
-      listed_up_to(numbers, most_told), listed_up_to(pairs, most_told));
+      "Put [[plan.position]] of the study file into the order in which they were held, {}, and "
+      "number them in it, 1, 2, 3 and so on, in the file or by positions = {{ \"NAME IN THE FILE\" "
+      "= 1, ... }} of [recording]. `driftscope new diagnose` with this file writes both, as its "
+      "gimbals show",
+      listed_up_to(numbers, most_told));
 }
 
 }  // namespace drift

@@ -2,6 +2,8 @@
 // takes numbers of nothing but nines for what was not measured.
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "core/recording/recording.hpp"
 #include "tests/support/program.hpp"
 
@@ -70,8 +72,16 @@ TEST(ProposedUnits, NinesThatAreOneReadingAmongOthersAreNotTakenAway) {
     warmer.replace(at, 2, "0");
   warmer.replace(warmer.find("temperature [degC]"), 18, "resistance");
   const auto look = driftscope("look '" + folder.write("ohms.csv", warmer) + "'");
-  EXPECT_EQ(look.out.find("missing ="), std::string::npos) << look.out;
-  EXPECT_NE(driftscope("look '" + log + "'").out.find("missing = [999]"), std::string::npos);
+  EXPECT_EQ(look.out.find("\nmissing ="), std::string::npos) << look.out;
+  EXPECT_NE(driftscope("look '" + log + "'").out.find("\nmissing = [999]"), std::string::npos);
+  // Nor where another column reads that number.
+  std::string beside, line;
+  std::istringstream rows(log_with("0.006", "999"));
+  while (std::getline(rows, line))
+    beside += line + (beside.empty() ? ",pressure [hPa]\n" : ",999\n");
+  EXPECT_EQ(driftscope("look '" + folder.write("air.csv", beside) + "'").out.find("\nmissing ="),
+            std::string::npos)
+      << beside;
 }
 
 }  // namespace

@@ -4,17 +4,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/report/identify/sections.hpp"
+#include "analysis/report/identify/judgement.hpp"
 
 namespace drift::filter_odds_test {
 namespace {
 
 using identification::favoured;
-using identification::log_evidence;
 
 /// Six free positions under eq. (5) and filters a and b, each by its equation and further lines.
 mc::Study study(std::string_view a, std::string_view b, std::string_view more_a = "",
-                std::string_view more_b = "") {
+                std::string_view more_b = "", std::string_view truth = "") {
   const auto filter = [](char name, std::string_view equation, std::string_view more) {
     return fmt::format(R"([[filter]]
 name = "{}"
@@ -39,11 +38,12 @@ gimbal_noise = "10 arcsec"
 [truth]
 coupling = "eq5"
 terms = ["fixed_drift", "g_drift", "gyro_misalignment", "accelerometer"]
+{}
 {}{}[monte_carlo]
 runs = 1
 seed = 4
 )",
-                                         filter('a', a, more_a), filter('b', b, more_b)),
+                                         truth, filter('a', a, more_a), filter('b', b, more_b)),
                              "s.toml");
 }
 
@@ -52,7 +52,7 @@ struct Identified {
   identification::Identification id = identification::identify_simulated(study, 0, 1);
 
   double evidence(std::size_t filter) const {
-    return log_evidence(study, id, id.summaries[filter]).value();
+    return identification::log_evidences(study, id)[filter].value();
   }
   const ParameterEstimate& K0_x(std::size_t filter) const {
     const EstimateResult& fit = id.counted(id.summaries[filter]).batch.estimate;
@@ -83,19 +83,52 @@ TEST(FilterOdds, FiltersThatSayTheSameAreAsProbable) {
   EXPECT_FALSE(favoured(i.study, i.id, {0})) << "there is nothing to choose";
 }
 
+/// Misalignments of a minute of arc: the wrong equation fits as well.
+constexpr std::string_view small = R"([truth.parameters]
+eta = "60 arcsec"
+xi = "60 arcsec"
+)";
+
 TEST(FilterOdds, OfTwoThatFitTheMoreProbableIsBelieved) {
   for (const bool first : {true, false}) {
-    const Identified i{first ? study("eq5", "eq6") : study("eq6", "eq5")};
-    const auto one = favoured(i.study, i.id, {0, 1});
-    ASSERT_TRUE(one) << i.evidence(0) << " " << i.evidence(1);
-    EXPECT_EQ(one->filter, first ? 0u : 1u);
-    EXPECT_NEAR(one->log_odds, std::abs(i.evidence(0) - i.evidence(1)), 1e-9);
+    const Identified i{first ? study("eq5", "eq6", "", "", small)
+                             : study("eq6", "eq5", "", "", small)};
+    const report::Judgement j = report::judgement_of(i.study, i.id);
+    ASSERT_EQ(j.good.size(), 2u) << "both fit";
+    ASSERT_TRUE(j.favoured) << i.evidence(0) << " " << i.evidence(1);
+    EXPECT_EQ(j.favoured->filters, std::vector<std::size_t>{first ? 0u : 1u});
+    EXPECT_EQ(j.first_favoured, first);
+    EXPECT_NEAR(j.favoured->log_odds, std::abs(i.evidence(0) - i.evidence(1)), 1e-9);
     const report::InBrief brief = report::identification_in_brief(i.study, i.id);
     EXPECT_EQ(brief.verdict.find(first ? "Believe a: " : "Believe b: "), 0u) << brief.verdict;
+    EXPECT_NE(brief.verdict.find("times as probable as"), std::string::npos) << brief.verdict;
     if (!first) {
       EXPECT_NE(brief.next.find("diagnose"), std::string::npos) << brief.next;
     }
   }
+}
+
+TEST(FilterOdds, TwoThatSayTheSameAreBelievedTogetherAgainstAThird) {
+  mc::Study s = study("eq5", "eq6", "", "", small);
+  s.filters.push_back(s.filters.front());
+  s.filters.back().name = "a2";
+  const Identified i{s};
+  const auto two = favoured(i.study, i.id, {0, 1, 2});
+  ASSERT_TRUE(two);
+  EXPECT_EQ(two->filters, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(two->others, std::vector<std::size_t>{1});
+  EXPECT_NEAR(two->log_odds, std::log(2.0) + i.evidence(0) - i.evidence(1), 1e-6);
+  const std::string verdict = report::identification_in_brief(i.study, i.id).verdict;
+  EXPECT_EQ(verdict.find("Believe a and a2: the residuals are what they expect"), 0u) << verdict;
+}
+
+TEST(FilterOdds, WhatTheAttitudesCostIsNotCompared) {
+  // The wider prior of the attitudes pays nothing in the determinant of the parameters.
+  mc::Study s = study("eq5", "eq5");
+  s.filters.back().initial_attitude *= 10.0;
+  const Identified i{s};
+  EXPECT_FALSE(favoured(i.study, i.id, {0, 1}));
+  EXPECT_FALSE(identification::log_evidences(i.study, i.id)[1]);
 }
 
 }  // namespace

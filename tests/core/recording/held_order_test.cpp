@@ -7,9 +7,7 @@ namespace {
 
 TEST(HeldOrder, IsThatOfThePlanAndOfTheNumbersInIt) {
   const std::string advice = held_order_advice({3, 3, 1, 1, 1, 2, 2});
-  EXPECT_NE(advice.find("held, 3, 1, 2, and"), std::string::npos) << advice;
-  EXPECT_NE(advice.find("positions = { \"3\" = 1, \"1\" = 2, \"2\" = 3 }"), std::string::npos)
-      << advice;
+  EXPECT_NE(advice.find("held, 3, 1, 2, and number them in it"), std::string::npos) << advice;
 }
 
 TEST(HeldOrder, OfANumberThatComesBackIsNone) {

@@ -41,5 +41,13 @@ TEST(GimbalLock, OfAPresetIsSaidAtThePreset) {
   EXPECT_NE(text.find("a shorter dwell"), std::string::npos) << text;
 }
 
+TEST(GimbalLock, OfThePlanOfTheFileIsNoneWhereASweepChangesIt) {
+  EXPECT_TRUE(test::mistakes("schema = 1\n[site]\nlatitude = \"80 deg\"\n[plan]\npreset = "
+                             "\"six\"\nmode = \"free\"\ndwell = \"24 h\"\n[[filter]]\nname = "
+                             "\"f\"\ncoupling = \"eq5\"\n[sweep]\n\"plan.dwell\" = [\"30 min\", "
+                             "\"1 h\"]\n")
+                  .empty());
+}
+
 }  // namespace
 }  // namespace drift::gimbal_lock_test
