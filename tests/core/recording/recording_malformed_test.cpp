@@ -136,7 +136,7 @@ std::vector<Case> cases() {
        "whole number"},
       {"PositionHuge", header + "1,1e300,0,0,0,0\n", ":2:position:", "1e+300", "whole number"},
       {"PositionDecreases", header + "1,2,0,0,0,0\n2,1,0,0,0,0\n",
-       ":3:position:", "1 comes after 2", "order in which they were held, 2, 1, and say"},
+       ":3:position:", "1 comes after 2", "order in which they were held, 2, 1, and number"},
       {"PhaseTwo", header + "1,1,2,0,0,0\n", ":2:phase:", "is 2", "0 (dwell) or 1 (slew)"},
       {"PhaseMissing", header + "1,1,,0,0,0\n", ":2:phase:", "is nan", "0 (dwell)"},
       {"NothingMeasured", header + "1,1,0,,,\n2,1,0,nan,nan,nan\n", ": ",
