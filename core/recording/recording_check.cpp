@@ -137,17 +137,6 @@ void check_phase(const Recording& r, Problems& problems) {
                    "0 (dwell) or 1 (slew)", "Correct the phase");
 }
 
-/// What to do about a value that is too large.
-std::string fix_of_unreasonable(const Channel& c, double x) {
-  return fmt::format(
-      "Check the unit and the export{}; if it stands for not measured, say in "
-      "[recording] of the study file missing = [{:g}]",
-      c.name == "temperature" ? " (kelvins are temperature = \"its header as it stands, then [K]\" "
-                                "in columns of [recording], or [K] in the header)"
-                              : "",
-      x / c.unit.to_si);
-}
-
 void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
   bool measured = false;
   for (const auto& c : r.channels) {
@@ -165,11 +154,7 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
         problems.add(place_in(r, i, c.name), "the value is infinite", "a finite number",
                      "Leave the cell empty (nan) if it was not measured");
       } else if (std::abs(x) > most) {
-        if (fix.empty()) fix = fix_of_unreasonable(c, x);
-        problems.add(
-            place_in(r, i, c.name),
-            fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
-            fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()), fix);
+        add_unreasonable(r, c, i, most, fix, problems);
       }
       if (std::isnan(x) && command)
         problems.add(place_in(r, i, c.name), "the command is missing",
@@ -223,6 +208,25 @@ bool equal_lengths(const RawRecording& raw, Problems& problems) {
 }
 
 }  // namespace
+
+void add_unreasonable(const Recording& r, const Channel& c, std::size_t row, double most,
+                      std::string& fix, Problems& problems) {
+  const double in_unit = c.values[row] / c.unit.to_si;
+  const bool temperature = c.unit.dim == "degC"_unit.dim;
+  if (fix.empty())
+    fix = fmt::format(
+        "Check the unit and the export{}; if it stands for not measured, say in "
+        "[recording] of the study file missing = [{:g}]",
+        temperature ? fmt::format(" (kelvins are {} = \"its header as it stands, then "
+                                  "[K]\" in columns of [recording], or [K] in the "
+                                  "header)",
+                                  c.name)
+                    : "",
+        in_unit);
+  problems.add(place_in(r, row, c.name), fmt::format("the value {:g} is beyond reason", in_unit),
+               fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()),
+               fix);
+}
 
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems) {

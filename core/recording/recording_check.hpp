@@ -16,4 +16,9 @@ namespace drift {
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems);
 
+/// The value of a row that is farther from zero than `most` [SI] is. fix: empty before the first of
+/// its channel; rows with the same one are one message.
+void add_unreasonable(const Recording& recording, const Channel& channel, std::size_t row,
+                      double most, std::string& fix, Problems& problems);
+
 }  // namespace drift

@@ -6,8 +6,7 @@
 
 #include "core/params/covariates.hpp"
 #include "core/physics/own/own_terms.hpp"
-#include "core/recording/recording_problems.hpp"
-#include "core/recording/rows/check_time.hpp"
+#include "core/recording/recording_check.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -24,19 +23,8 @@ void look_at_temperature(const Recording& r, const Channel& c, std::vector<std::
   const double most = temperature.reason * temperature.unit.to_si - celsius_offset(c.unit);
   Problems problems(name_of(r));
   std::string fix;
-  for (std::size_t row = 0; row < c.values.size(); ++row) {
-    const double x = c.values[row];
-    if (!(std::abs(x) > most)) continue;
-    if (fix.empty())
-      fix = fmt::format(
-          "Check the unit and the export (kelvins are [K] in the header, or {} = \"its header as "
-          "it stands, then [K]\" in columns of [recording]); if it stands for not measured, say in "
-          "[recording] of the study file missing = [{:g}]",
-          c.name, x / c.unit.to_si);
-    problems.add(
-        place_in(r, row, c.name), fmt::format("the value {:g} is beyond reason", x / c.unit.to_si),
-        fmt::format("at most {:g} {} in size", most / c.unit.to_si, c.unit.symbol.view()), fix);
-  }
+  for (std::size_t row = 0; row < c.values.size(); ++row)
+    if (std::abs(c.values[row]) > most) add_unreasonable(r, c, row, most, fix, problems);
   for (std::string& message : problems.messages()) wrong.push_back(std::move(message));
 }
 
