@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/two_cagings.hpp"
+
 namespace drift::rank_test {
 namespace {
 
@@ -59,22 +61,11 @@ TEST(RankPlan, ChoosesPositionsForTheFirstFilterWhicheverItsEquation) {
   }
 }
 
-/// Two cagings in free drift under eq. (6), where misalignments are seen by the drift they turn.
+/// Two cagings in free drift.
 std::string caged_twice(const std::string& coupling, const std::string& truth) {
-  return R"(schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-dwell  = "60 min"
-sample = "10 min"
-mode   = "free"
-[[plan.position]]
-axes = "x=N y=W z=U"
-[[plan.position]]
-axes = "x=N y=U z=E"
-[truth]
+  return test::two_cagings + std::string(R"([truth]
 terms = ["D_F", "D_I_z", "eta_x", "xi_y"]
-)" + truth +
+)") + truth +
          "[[filter]]\nname = \"f\"\ncoupling = \"" + coupling +
          "\"\nterms = [\"D_F\", \"D_I_z\", \"eta_x\", \"xi_y\"]\n";
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/report/rank/sections.hpp"
+#include "tests/support/two_cagings.hpp"
 
 namespace drift::rank_brief_test {
 namespace {
@@ -129,21 +130,10 @@ mode   = "level"
 TEST(RankBrief, SaysWhereTruthsAreDrawnFrom) {
   // eta_x is seen by D_I_z times it: not at D_I_z = 0, where the plan is linearised.
   const std::string terms = "terms = [\"D_F\", \"D_I_z\", \"eta_x\"]\n";
-  const std::string study = R"(schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-dwell  = "60 min"
-sample = "10 min"
-mode   = "free"
-[[plan.position]]
-axes = "x=N y=W z=U"
-[[plan.position]]
-axes = "x=N y=U z=E"
-[[filter]]
+  const std::string study = test::two_cagings + std::string(R"([[filter]]
 name = "f"
 coupling = "eq6"
-)" + terms;
+)") + terms;
   const Answer priors(study), truth(study + "[truth]\ncoupling = \"eq6\"\n" + terms);
   EXPECT_TRUE(has(priors.brief.verdict, "at truths drawn from the priors (what"))
       << priors.brief.verdict;
