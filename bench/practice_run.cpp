@@ -235,7 +235,7 @@ EstimateResult practice_iterated(const FilterSpec& filter, const Timeline& timel
   std::vector<Vec3> starts(timeline.chains);
   EstimateResult result =
       practice_pass(filter, timeline, readout, measured, start, nullptr, starts);
-  constexpr int most_passes = 8;
+  constexpr int most_passes = 16;
   for (int pass = 0; pass < most_passes; ++pass) {
     const About about{scaled(result), starts};
     result = practice_pass(filter, timeline, readout, measured, start, &about, starts);

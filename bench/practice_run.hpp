@@ -20,7 +20,7 @@ EstimateResult practice_ekf(const FilterSpec& filter, const Timeline& timeline,
                             const Theta& start);
 
 /// The same, then whole passes linearised about the parameters of the one before, until none moves
-/// by a posterior sigma; eight at most, as IteratedPasses.
+/// by a posterior sigma; sixteen at most, as IteratedPasses.
 EstimateResult practice_iterated(const FilterSpec& filter, const Timeline& timeline,
                                  const Readout& readout, const Measurements& measured,
                                  const Theta& start);

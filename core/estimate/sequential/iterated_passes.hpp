@@ -21,7 +21,7 @@ namespace drift {
 /// final parameters, and the attitude integrated back with them from its estimate at the end of
 /// each chain. Its result is that of a Gauss-Newton step on all data at once, its cost at the
 /// minimum is chi-square. While a pass moves some parameter by a posterior sigma or more there is
-/// another, eight at most; mostly there is one. If the eighth still does, the filter has not
+/// another, sixteen at most; mostly there is one. If the last still does, the filter has not
 /// converged.
 ///
 /// Where a drift or the attitude walks so far that no path of the parameters alone stays near
@@ -30,7 +30,7 @@ namespace drift {
 /// before has put it: less is known of it there than of a path that ends where all samples say.
 class IteratedPasses : public FilterEstimate {
  public:
-  static constexpr int most_passes = 8;  ///< linear ones
+  static constexpr int most_passes = 16;  ///< linear ones
 
   /// The timeline must outlive the filter. start: library values of the initial estimate.
   IteratedPasses(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,

@@ -1,6 +1,8 @@
 // The estimator of a few passes (iterated) says where its last pass has not come to rest.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "core/estimate/sequential/in_lanes/iterated_lanes.hpp"
 #include "core/estimate/sequential/iterated_passes.hpp"
 #include "core/physics/own/own_terms.hpp"
@@ -63,7 +65,7 @@ TEST(NotConverged, AnEstimateThatStillMovesIsNone) {
     EXPECT_EQ(row[f.at(0, C::status)],
               static_cast<double>(converged ? EstimateStatus::ok : EstimateStatus::not_converged));
     EXPECT_EQ(out.status, converged ? mc::RunStatus::ok : mc::RunStatus::filter_diverged);
-    EXPECT_EQ(out.cause.starts_with("f: filter not converged (the last of 8 passes moves a "),
+    EXPECT_EQ(out.cause.starts_with("f: filter not converged (the last of 16 passes moves a "),
               !converged)
         << out.cause;
     EXPECT_EQ(std::isnan(row[f.estimate(0, 0)]), !converged);
@@ -81,43 +83,74 @@ TEST(NotConverged, AnEstimateThatStillMovesIsNone) {
   EXPECT_EQ(s.nis.in_band.of, 1u);
 }
 
-/// The wrong equation over torqued slews, and most of the terms left out: in runs 0, 1 and 3 the
-/// fourth pass moves a parameter by 22, 17 and 688 sigma, in run 2 by a tenth of one. The first two
-/// settle with the sixth, the last does not.
-TEST(NotConverged, LanesSayTheSame) {
-  const mc::Study study =
-      read_text(small_study, {{"plan.preset", "slew12"},
-                              {"truth.terms",
-                               "[\"fixed_drift\", \"g_drift\", \"g2_drift\", "
-                               "\"gyro_misalignment\", \"torquer_scale\", \"accelerometer\"]"}});
-  const mc::StudyTask task(study);
-  const Timeline timeline = task.timeline();
-  const FilterSpec& filter = study.filters[1];
-  ASSERT_TRUE(LaneIntervals::can(filter, timeline));
-  const Theta start = make_layout(filter).theta;
-  mc::Design design(study.truth, mc::DesignKind::random, 300, 5);
+/// These runs of a filter in lanes.
+std::vector<IteratedJob> in_lanes(const mc::Study& study, const Timeline& timeline,
+                                  const FilterSpec& filter, const std::vector<std::uint64_t>& runs,
+                                  std::vector<Measurements>& measured) {
+  EXPECT_TRUE(LaneIntervals::can(filter, timeline));
+  const mc::MonteCarlo& settings = study.monte_carlo;
+  mc::Design design(study.truth, mc::DesignKind::random, settings.runs, settings.seed);
   Simulator simulator(study.truth, study.readout);
-  std::vector<Measurements> measured;
-  for (std::uint64_t run = 0; run < 4; ++run)
-    measured.push_back(simulator.run(timeline, design.draw(run, timeline.chains), 5, run).measured);
+  for (const std::uint64_t run : runs)
+    measured.push_back(
+        simulator.run(timeline, design.draw(run, timeline.chains), settings.seed, run).measured);
   std::vector<IteratedJob> jobs(measured.size());
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     jobs[k].measured = &measured[k];
-    jobs[k].start = start;
+    jobs[k].start = make_layout(filter).theta;
   }
   IteratedLanes(filter, timeline, study.readout).run(jobs);
-  IteratedPasses one(filter, timeline, study.readout, start);
+  return jobs;
+}
+
+/// Most of the terms left out.
+mc::Study poor(const char* plan) {
+  return read_text(small_study, {{"plan.preset", plan},
+                                 {"truth.terms",
+                                  "[\"fixed_drift\", \"g_drift\", \"g2_drift\", "
+                                  "\"gyro_misalignment\", \"torquer_scale\", \"accelerometer\"]"}});
+}
+
+/// The wrong equation over torqued slews: in runs 0, 1 and 3 the fourth pass moves a parameter by
+/// 22, 17 and 688 sigma, in run 2 by a tenth of one. The first two settle with the sixth, the last
+/// with the thirteenth; of 300 runs none needs more than fourteen.
+TEST(NotConverged, LanesSettleAsOneRunDoes) {
+  const mc::Study study = poor("slew12");
+  const FilterSpec& filter = study.filters[1];
+  const Timeline timeline = mc::StudyTask(study).timeline();
+  std::vector<Measurements> measured;
+  const std::vector<IteratedJob> jobs = in_lanes(study, timeline, filter, {0, 1, 2, 3}, measured);
+  IteratedPasses one(filter, timeline, study.readout, make_layout(filter).theta);
+  const int passes[] = {6, 6, 4, 13};
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     SCOPED_TRACE(k);
-    one.run(measured[k], start);
-    const bool settles = k != 3;
-    EXPECT_EQ(jobs[k].linear_passes(), !settles ? IteratedPasses::most_passes : k == 2 ? 4 : 6);
-    EXPECT_EQ(jobs[k].status(), settles ? EstimateStatus::ok : EstimateStatus::not_converged);
-    EXPECT_EQ(jobs[k].status(), one.status());
-    EXPECT_EQ(jobs[k].cause(), one.cause()) << "in whole sigmas";
-    EXPECT_EQ(jobs[k].t_diverged(), one.t_diverged());
-    EXPECT_NEAR(jobs[k].nis() / one.nis(), 1.0, 1e-4) << "as of one that has";
+    one.run(measured[k], jobs[k].start);
+    EXPECT_EQ(jobs[k].linear_passes(), passes[k]);
+    EXPECT_EQ(jobs[k].status(), EstimateStatus::ok) << jobs[k].cause();
+    EXPECT_EQ(one.status(), EstimateStatus::ok) << one.cause();
+    EXPECT_NEAR(jobs[k].nis() / one.nis(), 1.0, 1e-4);
   }
+}
+
+/// While the case turns, the passes of some runs go where the last digit sends them: to infinity or
+/// round and round, never to rest. What each says is what it has done.
+TEST(NotConverged, LanesSayIt) {
+  const mc::Study study = poor("casespin");
+  const Timeline timeline = mc::StudyTask(study).timeline();
+  std::vector<std::uint64_t> runs(600);
+  std::iota(runs.begin(), runs.end(), 0);
+  std::vector<Measurements> measured;
+  int unsettled = 0;
+  for (const IteratedJob& job : in_lanes(study, timeline, study.filters[1], runs, measured)) {
+    const bool settled = job.status() == EstimateStatus::ok;
+    EXPECT_EQ(job.cause().empty(), settled);
+    if (job.status() != EstimateStatus::not_converged) continue;
+    ++unsettled;
+    EXPECT_EQ(job.linear_passes(), IteratedPasses::most_passes);
+    EXPECT_TRUE(job.cause().starts_with("filter not converged (the last of 16 passes moves a "))
+        << job.cause();
+  }
+  EXPECT_GT(unsettled, 0) << "of some hundred that are at a loss";
 }
 
 }  // namespace
