@@ -20,19 +20,6 @@ std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nomina
 /// Where the fit with the explanation leaves innovations that are not white.
 std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& whiteness);
 
-/// Nominal parameters that the recording moves further from their priors than any of them would
-/// lie with a chance of alpha, were all priors right (Bonferroni): the fit is good, what it says is
-/// not to be believed (isotropic D_I, for one, is Earth rate about Up).
-std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
-                                                const search::Fitted& fit, double alpha);
-
-/// Such parameters without which nothing significant is missing: where their priors are as wide as
-/// the data take them from their means. Empty if there are none, or something is missing beside
-/// them. fit: of the nominal model.
-std::optional<remark::BeyondPrior> priors_at_fault(const FilterSpec& nominal,
-                                                   const MeasuredTest& test, const BatchResult& fit,
-                                                   const search::SearchOptions& options);
-
 /// Terms of a fitted model, a cause among them, that remember another path than that of the fit, or
 /// a gap in which nobody knows when the platform was turned; alternatives: whose terms may
 /// remember such a gap, too.

@@ -10,6 +10,7 @@
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
 #include "analysis/diagnosis/compare.hpp"
+#include "analysis/diagnosis/doubts/wrong_priors.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/located.hpp"
 #include "analysis/diagnosis/noise_found.hpp"
@@ -108,12 +109,12 @@ double other_equation_gain(const search::Search& found, const Judged& judged,
 /// noise: what was found of it; samples that are none are noise not as declared, too.
 Probabilities probabilities(const search::Search& found, const search::Posterior& p,
                             const std::vector<inference::NoiseFinding>& noise) {
-  Probabilities out{p.consistent, p.noise_only, p.outside, {}};
+  Probabilities out{p.consistent + p.wrong_priors, p.noise_only, p.outside, {}, p.wrong_priors};
   if (std::ranges::any_of(noise, [](const inference::NoiseFinding& f) {
         return f.significant && f.component == "outliers";
       })) {
-    out.noise_only += out.consistent;
-    out.consistent = 0.0;
+    out.noise_only += p.consistent;
+    out.consistent = p.wrong_priors;
   }
   for (const auto& [choices, probability] : p.named) {
     out.named.push_back({{}, probability});
@@ -123,6 +124,16 @@ Probabilities probabilities(const search::Search& found, const search::Posterior
     }
   }
   return out;
+}
+
+/// Priors that are wrong instead, asked for where something is found, effect or noise.
+std::optional<WrongPriors> priors_of(const FilterSpec& nominal, const MeasuredTest& test,
+                                     const BatchResult& fit, const search::Search& found,
+                                     const search::SearchOptions& options) {
+  const bool as_declared =
+      search::posterior_of(found).consistent >= inference::SearchLimits::credible;
+  if (!found.significant && as_declared) return std::nullopt;
+  return wrong_priors(nominal, test, fit, options);
 }
 
 template <class T>
@@ -153,7 +164,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
                                   : search::examine(nominal_filter, test, fitted.fit);
   stages.begin("search", 0.5);
   search::Search found = search::search(std::move(examined), test, options.search);
-  const search::Posterior posterior = search::posterior_of(found);
+  const auto wrong = priors_of(nominal_filter, test, fitted.fit, found, options.search);
+  const search::Posterior posterior =
+      search::posterior_of(found, wrong ? wrong->log_evidence : search::never);
   search::give_settings_room(found, test);
   const search::Fitted& nominal = found.nominal;
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
@@ -179,10 +192,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
 
   // A cause moves parameters: they are looked at with it in the model.
   const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
-  auto beyond = beyond_prior(nominal_filter, in_the_model, options.search.alpha);
-  if (!best && found.significant)
-    if (auto at_fault = priors_at_fault(nominal_filter, test, nominal.fit, options.search))
-      beyond = std::move(at_fault);
+  const bool or_priors = wrong && (judged.or_priors || (found.significant && !best));
+  const auto beyond = or_priors ? std::optional(wrong->beyond)
+                                : beyond_prior(nominal_filter, in_the_model, options.search.alpha);
 
   if (judged.verdict == Verdict::unexplained && !(beyond && beyond->explains) &&
       options.proposing != Proposing::left_out) {
@@ -216,7 +228,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.not_examined = not_examined(nominal, d.causes, test.timeline);
   d.probabilities = probabilities(found, posterior, d.noise);
   if (judged.of_no_noise)  // all of them take the noise for known
-    d.probabilities = {nan_value, nan_value, nan_value, {}};
+    d.probabilities = {nan_value, nan_value, nan_value, {}, nan_value};
   d.nominal = nominal_filter;
   d.patched = best && alarm
                   ? started_where_found(with_room_for_causes(best->filter, d.causes), d.causes)
@@ -230,7 +242,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
-  append(d.remarks, std::move(beyond));
+  append(d.remarks, beyond);
   const std::span<const search::Refit> sets(found.sets);
   append(d.remarks, memory_off(in_the_model, alarm ? sets : sets.first(0), test.timeline));
   append(d.remarks, equation_against_other(d));

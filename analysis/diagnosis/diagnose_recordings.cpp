@@ -5,9 +5,9 @@
 
 #include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/advice/alternatives.hpp"
+#include "analysis/diagnosis/doubts/site_doubt.hpp"
+#include "analysis/diagnosis/doubts/unknown_field.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
-#include "analysis/diagnosis/site_doubt.hpp"
-#include "analysis/diagnosis/unknown_field.hpp"
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"

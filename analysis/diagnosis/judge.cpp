@@ -55,6 +55,8 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
              const search::Posterior& posterior, const HeldOut& held_out,
              const std::vector<double>& member_gains, NamedBy by) {
   Judged out;
+  constexpr double credible = inference::SearchLimits::credible;
+  out.or_priors = posterior.wrong_priors > 1.0 - credible;
   if (!found.significant) {
     out.one_gyro = noise_of_one_axis(nominal);
     if (const double gain = log_gain_of_more_noise(nominal.projector->marginal());
@@ -65,7 +67,6 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   const double noise = posterior.consistent + posterior.noise_only;
-  constexpr double credible = inference::SearchLimits::credible;
   // Chance is what is more probable; noise that explains the same as an effect must be credible.
   if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
   const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
@@ -75,9 +76,10 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   const bool judged =
       by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
   const bool nameable = !best || (best->nameable && !found.just_not);
-  out.verdict = !best                                    ? Verdict::unexplained
-                : one && judged && nameable && !or_noise ? Verdict::named
-                                                         : Verdict::ambiguous;
+  const bool alone = one && !or_noise && !out.or_priors;
+  out.verdict = !best                         ? Verdict::unexplained
+                : alone && judged && nameable ? Verdict::named
+                                              : Verdict::ambiguous;
   if (found.just_not)
     out.remarks.emplace_back(remark::JustSignificantLeft{});
   else if (one && !nameable)

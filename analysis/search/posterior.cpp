@@ -119,27 +119,30 @@ Posterior posterior_of(const Evidence& e) {
   const double declared = std::log(PosteriorPrior::nothing) + e.declared,
                estimated = std::log(PosteriorPrior::nothing) + e.estimated,
                outside = std::log(PosteriorPrior::outside) + e.outside,
+               wrong = std::log(PosteriorPrior::nothing) + e.wrong_priors,
                library = std::log(PosteriorPrior::library);
-  double total = log_sum(log_sum(declared, estimated), outside);
+  double total = log_sum(log_sum(log_sum(declared, estimated), outside), wrong);
   for (const Evidence::Weighed& w : e.library) total = log_sum(total, library + w.log_weight);
   Posterior out;
   out.consistent = std::exp(declared - total);
   out.noise_only = std::exp(estimated - total);
   out.outside = std::exp(outside - total);
+  out.wrong_priors = std::exp(wrong - total);
   for (const Evidence::Weighed& w : e.library)
     if (const double p = std::exp(library + w.log_weight - total); p >= PosteriorPrior::listed)
       out.named.push_back({w.choices, p});
   std::ranges::stable_sort(out.named, std::greater{}, &Posterior::Explained::probability);
-  double sum = out.consistent + out.noise_only + out.outside;
+  double sum = out.consistent + out.noise_only + out.outside + out.wrong_priors;
   for (const auto& n : out.named) sum += n.probability;
   out.consistent /= sum;
   out.noise_only /= sum;
   out.outside /= sum;
+  out.wrong_priors /= sum;
   for (auto& n : out.named) n.probability /= sum;
   return out;
 }
 
-Posterior posterior_of(const Search& found) {
+Posterior posterior_of(const Search& found, double wrong_priors) {
   const Fitted& e = found.nominal;
   const inference::NoiseModel declared = declared_noise(e.filter);
   const ByNoise nothing = by_noise(found, declared);
@@ -147,7 +150,8 @@ Posterior posterior_of(const Search& found) {
   return posterior_of(Evidence{nothing.declared, nothing.estimated,
                                log_outside(found, prior, declared, nothing),
                                found.significant ? explanations(found, prior, declared)
-                                                 : singles(e, prior, nothing.either())});
+                                                 : singles(e, prior, nothing.either()),
+                               wrong_priors});
 }
 
 }  // namespace drift::search

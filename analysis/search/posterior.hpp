@@ -17,6 +17,8 @@ struct Posterior {
   double consistent = 1.0;
   double noise_only = 0.0;  ///< nothing missing, noise not as declared
   double outside = 0.0;     ///< something that no term of the library describes
+  /// Nothing missing, but priors of the nominal model wrong; 0 where none was asked about.
+  double wrong_priors = 0.0;
   /// Explanations by the library, most probable first; what is below a thousandth is shared out
   /// over all.
   struct Explained {
@@ -37,11 +39,12 @@ struct Evidence {
     double log_weight = 0.0;
   };
   std::vector<Weighed> library;
+  double wrong_priors = never;  ///< nothing missing, how rare such priors are included
 };
 Posterior posterior_of(const Evidence& evidence);
 
 /// Of a search that found nothing significant: by the linearised scores of single candidates;
-/// otherwise of the explanations that were fitted.
-Posterior posterior_of(const Search& found);
+/// otherwise of the explanations that were fitted. wrong_priors: as in Evidence.
+Posterior posterior_of(const Search& found, double wrong_priors = never);
 
 }  // namespace drift::search

@@ -2,7 +2,7 @@
 
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
-#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/doubts/site_doubt.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/sensed_diagnosis.hpp"
 #include "core/base/check.hpp"

@@ -15,6 +15,7 @@ struct Probabilities {
     double probability = 0.0;
   };
   std::vector<Explanation> named;  ///< most probable first
+  double wrong_priors = 0.0;       ///< of `consistent`: nothing missing, priors of the model wrong
   bool known() const { return consistent + noise_only + outside > 0.0 || !named.empty(); }
 };
 

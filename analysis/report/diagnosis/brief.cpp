@@ -44,8 +44,15 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
   if (d.site_doubt && d.site_doubt->clock) return clock_next(*d.site_doubt->clock, "diagnose");
   if (d.site_doubt) return latitude_next(*d.site_doubt, "diagnose");
   if (const std::string priors = priors_at_fault_text(d); !priors.empty())
-    return fmt::format(
-        "Next: correct {}, or widen it to hold what the fit takes, and diagnose again.", priors);
+    return d.causes.empty()
+               ? fmt::format(
+                     "Next: correct {}, or widen it to hold what the fit takes, and diagnose "
+                     "again.",
+                     priors)
+               : fmt::format(
+                     "Next: look up {} before anything is added to the model; where it is wrong, "
+                     "correct it, or widen it to hold what the fit takes, and diagnose again.",
+                     priors);
   if (off_zero && d.verdict != Verdict::consistent)
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/alternative_words.hpp"
 #include "analysis/report/diagnosis/field_words.hpp"
+#include "analysis/report/diagnosis/verdict_openings.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/base/number_text.hpp"
 #include "core/base/units.hpp"
 
 namespace drift::report {
@@ -31,6 +34,25 @@ std::string priors_at_fault_text(const Diagnosis& d) {
   if (beyond == nullptr || !beyond->explains) return "";
   return fmt::format("the prior{} of {}", beyond->parameters.size() > 1 ? "s" : "",
                      listed_up_to(keys_of(*beyond), most_keys));
+}
+
+std::string wrong_priors_text(const Diagnosis& d) {
+  constexpr std::string_view nothing_left = "with more room there nothing is missing";
+  const std::string priors = priors_at_fault_text(d);
+  if (priors.empty()) return "";
+  if (d.verdict == Verdict::consistent)
+    return fmt::format("{} but for {}: {}.", agrees, priors, nothing_left);
+  const std::string missing =
+      fmt::format("{} (chance of a false alarm: {})", something_missing, p_text(d.p_value));
+  const std::vector<CauseIndices> causes = alternatives_of(d);
+  if (causes.empty()) return fmt::format("{}, or it is {}: {}.", missing, priors, nothing_left);
+  std::string words;
+  for (std::size_t k = 0; k < causes.size(); ++k)
+    words += fmt::format(", or {}{}", causes.size() > 1 ? fmt::format("({}) ", k + 1) : "",
+                         together(d, causes[k]));
+  return fmt::format("{}, and {} cannot tell which: either {} (probability {}: {}){}.", missing,
+                     positions_at_hand(d), priors, decimal_text(d.probabilities.wrong_priors, 2),
+                     nothing_left, words);
 }
 
 std::string beyond_prior_text(const remark::BeyondPrior& r) {

@@ -15,6 +15,8 @@ std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 /// "the prior of K0_x", where with wider ones nothing is missing; empty where something is, or
 /// nothing stands out.
 std::string priors_at_fault_text(const diagnosis::Diagnosis& diagnosis);
+/// The verdict's sentence where they are told, with the causes that it may be instead.
+std::string wrong_priors_text(const diagnosis::Diagnosis& diagnosis);
 
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);

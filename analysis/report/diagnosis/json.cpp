@@ -123,7 +123,8 @@ Json probabilities_json(const Probabilities& p) {
   return {{"consistent", p.consistent},
           {"noise_only", p.noise_only},
           {"named", std::move(named)},
-          {"outside", p.outside}};
+          {"outside", p.outside},
+          {"wrong_priors", p.wrong_priors}};
 }
 
 Json fit_json(const Diagnosis& d) {

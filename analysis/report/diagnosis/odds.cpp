@@ -16,7 +16,8 @@ Section odds(const Diagnosis& d) {
   const auto add = [&](const std::string& what, double probability) {
     table.add({what, probability < 5e-4 ? Cell("below 0.001") : decimals(probability, 3)});
   };
-  add("nothing missing, noise as declared", p.consistent);
+  add("nothing missing, noise as declared", p.consistent - p.wrong_priors);
+  if (p.wrong_priors > 0.0) add("nothing missing, but priors of the model wrong", p.wrong_priors);
   add("nothing missing, noise not as declared", p.noise_only);
   double others = 0.0;
   for (const Probabilities::Explanation& e : p.named) {

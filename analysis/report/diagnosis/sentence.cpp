@@ -156,12 +156,8 @@ std::string unknown_text(const Diagnosis& d) {
 std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
-  if (const std::string priors = priors_at_fault_text(d); !priors.empty())
-    return fmt::format("{} {}: with more room there nothing is missing.",
-                       d.verdict != Verdict::consistent
-                           ? fmt::format("{} ({}), or it is", something_missing, false_alarm)
-                           : fmt::format("{} but for", agrees),
-                       priors);
+  if (const std::string priors = wrong_priors_text(d); !priors.empty())
+    return priors + (d.verdict == Verdict::consistent && !noise.empty() ? " Or else:" + noise : "");
   switch (d.verdict) {
     case Verdict::consistent:
       return fmt::format("{}; no missing physics is found (noise alone {}).{}{}", agrees,

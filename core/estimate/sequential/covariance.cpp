@@ -108,7 +108,27 @@ void downdate(MatX& P, const U&... us) {
 
 /// G A for a tall A, shape (3, 3).
 Mat3 small_product(const Ref3X& G, const MatX3& A) {
-  return G.lazyProduct(A.topRows(G.cols()));
+  const auto columns = static_cast<std::size_t>(G.cols());
+  const std::size_t whole = columns / lane_width * lane_width;
+  Lanes sum[9];
+  for (Lanes& s : sum) s = broadcast(0.0);
+  const double* g[] = {G.data(), G.data() + G.outerStride(), G.data() + 2 * G.outerStride()};
+  const double* a[] = {A.col(0).data(), A.col(1).data(), A.col(2).data()};
+  for (std::size_t c = 0; c < whole; c += lane_width)
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; ++k) {
+      const Lanes ak = load(a[k] + c);
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) sum[3 * k + i] = mul_add(load(g[i] + c), ak, sum[3 * k + i]);
+    }
+  Eigen::Matrix<double, lane_width, 9> partial;
+#pragma GCC unroll 9
+  for (int e = 0; e < 9; ++e) store(partial.col(e).data(), sum[e]);
+  Mat3 out = partial.colwise().sum().reshaped(3, 3);
+  for (std::size_t c = whole; c < columns; ++c)
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) out(i, k) += g[i][c] * a[k][c];
+  return out;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/diagnosis/diagnose_recordings.hpp"
-#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/doubts/site_doubt.hpp"
 #include "analysis/identification/identify.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/doubts/site_doubt.hpp"
 
 #include <gtest/gtest.h>
 

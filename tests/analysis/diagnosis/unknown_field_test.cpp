@@ -1,5 +1,5 @@
 // A platform with magnetic drift in a field that nobody measured, and that is not a dipole's.
-#include "analysis/diagnosis/unknown_field.hpp"
+#include "analysis/diagnosis/doubts/unknown_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,12 @@
 // Nothing is missing but a right prior: it is told so, with the value that the test has.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/diagnosis/doubts/wrong_priors.hpp"
 #include "analysis/report/diagnosis/report.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/support/six_positions.hpp"
 
 namespace drift::diagnosis::wrong_prior_test {
 namespace {
@@ -72,6 +75,53 @@ TEST(WrongPrior, IsNoneWhereAllAreRight) {
   const WrongBelief w("K0_x", 10.0, 20.0);
   EXPECT_EQ(w.d.verdict, Verdict::consistent);
   EXPECT_EQ(remark_in<remark::BeyondPrior>(w.d), nullptr);
+}
+
+/// A test that holds its platform level, by commands of which those about `axis` were written down
+/// with another weight of a pulse: its torquer's scale factor is off by twenty prior sigmas. A
+/// restraint of the float takes most of that up, at a size that is usual.
+Diagnosis with_pulses_of(double weight, std::string_view command) {
+  PlanDefaults defaults;
+  defaults.dwell = 3600.0;
+  defaults.sample = 120.0;
+  defaults.mode = CommandLaw::level;
+  mc::Study study = six_study(defaults);
+  study.readout.accelerometer_noise = 5e-6 * unit::g.to_si;
+  study.readout.gimbal_noise = 5.0 * unit::arcsec.to_si;
+  const Timeline timeline = lay_out(study.plan, study.site);
+  const TruthDraw draw = draw_truth(study.truth, timeline.chains, 3, 0);
+  Recording recording = make_recording(
+      timeline, Simulator(study.truth, study.readout).run(timeline, draw, 3, 0).measured,
+      study.readout);
+  for (double& value : channel(recording, command)) value *= weight;
+  DiagnoseOptions options;
+  options.folds = FoldMethod::linear;
+  options.starts = 1;
+  options.whiteness_draws = 0;
+  return diagnose(study, {recording}, options);
+}
+
+TEST(WrongPrior, IsARivalOfTheEffectThatImitatesIt) {
+  const Diagnosis d = with_pulses_of(1.01, "cmd_z");
+  const std::string said = report::diagnosis_in_brief(d).verdict;
+  EXPECT_NE(d.verdict, Verdict::named) << said;
+  EXPECT_NE(said.find("the prior of s_z"), std::string::npos) << said;
+  EXPECT_GT(d.probabilities.wrong_priors, 0.05);
+  double sum = d.probabilities.consistent + d.probabilities.noise_only + d.probabilities.outside;
+  for (const auto& e : d.probabilities.named) sum += e.probability;
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_NE(report::diagnosis_in_brief(d).next.find("the prior of s_z"), std::string::npos);
+}
+
+/// One study of 1000 has wrong priors: the sets of all sizes together.
+TEST(WrongPrior, IsAsRareAsIsStated) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k <= 40; ++k) {
+    const double sets = std::round(std::exp(std::lgamma(41.0) - std::lgamma(k + 1.0) -
+                                            std::lgamma(41.0 - static_cast<double>(k))));
+    sum += sets * std::exp(log_rarity_of_wrong_priors(k, 40));
+  }
+  EXPECT_NEAR(sum, 1e-3, 1e-12) << "but for 2^-40";
 }
 
 }  // namespace

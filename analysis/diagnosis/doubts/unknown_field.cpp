@@ -1,4 +1,4 @@
-#include "analysis/diagnosis/unknown_field.hpp"
+#include "analysis/diagnosis/doubts/unknown_field.hpp"
 
 #include <algorithm>
 #include <chrono>

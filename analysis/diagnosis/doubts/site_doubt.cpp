@@ -1,10 +1,10 @@
-#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/doubts/site_doubt.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "analysis/diagnosis/unknown_field.hpp"
+#include "analysis/diagnosis/doubts/unknown_field.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/estimate/batch.hpp"
