@@ -7,7 +7,6 @@
 
 #include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/planning/position_toml.hpp"
 #include "core/base/check.hpp"
 #include "core/base/number_text.hpp"
 #include "core/config/load.hpp"
@@ -264,30 +263,6 @@ std::string study_with_noise(const mc::Study& study,
       declare_walk(root, study, f);
   }
   return config::to_document(root);
-}
-
-std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions) {
-  Node root = parsed(study);
-  Node& plan = at(root, "plan");
-  std::erase_if(plan.members, [](const config::Member& m) {
-    return m.key == "preset" || m.key == "position" || m.key == "dwell" || m.key == "sample" ||
-           m.key == "mode" || m.key == "entry";
-  });
-  Node list = list_node({});
-  for (const Position& p : positions) list.items.push_back(planning::position_node(p));
-  plan.members.push_back({"position", {}, std::move(list)});
-  return config::to_document(root);
-}
-
-std::string extended_study(const mc::Study& study, const std::vector<Position>& positions) {
-  if (study.kind != RecordingKind::platform)
-    throw InputError(ExitCode::config,
-                     fmt::format("{}: a strapdown plan has no positions to add to "
-                                 "(expected a platform plan). Record more turns",
-                                 study.path));
-  std::vector<Position> all = study.plan.positions;
-  all.insert(all.end(), positions.begin(), positions.end());
-  return study_with_positions(study, all);
 }
 
 }  // namespace drift::diagnosis

@@ -55,11 +55,4 @@ std::vector<std::string> not_declared(const Diagnosis& d);
 std::string study_with_noise(const mc::Study& study,
                              const std::vector<inference::NoiseFinding>& found);
 
-/// The study file with these positions for its plan, written out one by one.
-std::string study_with_positions(const mc::Study& study, const std::vector<Position>& positions);
-
-/// The study file with positions added behind its plan; a preset is written out position by
-/// position. InputError (config) if the plan has no positions (strapdown).
-std::string extended_study(const mc::Study& study, const std::vector<Position>& positions);
-
 }  // namespace drift::diagnosis

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/planning/position_toml.hpp"
@@ -12,6 +11,7 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/page/planned_study.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
 
@@ -71,10 +71,8 @@ std::string undeclared_text(const Diagnosis& d) {
 /// its sigmas would not hold.
 std::string patched_file(const mc::Study& study, const Diagnosis& d) {
   std::string out;
-  for (const std::string& head : {patch_text(d), widened_text(d), undeclared_text(d)}) {
-    std::istringstream lines(head.empty() ? "" : wrapped(head, 98));
-    for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
-  }
+  for (const std::string& head : {patch_text(d), widened_text(d), undeclared_text(d)})
+    out += as_comment(head);
   mc::Study there = study;
   if (d.field && d.field->another()) there.text = study_with_field(there, d.field->field_l);
   if (declares_noise(d)) there.text = study_with_noise(there, d.noise);
@@ -171,10 +169,10 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
     report.files.emplace_back("patched.toml", patched_file(study, d));
   if (d.proposal) report.files.emplace_back("proposal.toml", d.proposal->text);
   if (!d.advice.empty() && !d.advice.front().plan.empty() && study.kind == RecordingKind::platform)
-    report.files.emplace_back("advised.toml", extended_study(study, d.advice.front().plan));
+    report.files.push_back(extended_study_file("advised.toml", study, d.advice.front().plan));
   if (d.heading_doubt)
-    report.files.emplace_back("corrected.toml",
-                              study_with_positions(study, d.heading_doubt->positions));
+    report.files.push_back(
+        study_file_with_positions("corrected.toml", study, d.heading_doubt->positions));
   report.footer = "Values stand with their units; ± is 1 sigma.";
   return source.provenance.version.empty() ? report
                                            : with_provenance(std::move(report), source.provenance);

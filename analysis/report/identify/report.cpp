@@ -7,9 +7,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
+#include "analysis/report/page/planned_study.hpp"
 #include "analysis/report/page/study_section.hpp"
 #include "core/recording/recording_output.hpp"
 
@@ -49,8 +49,8 @@ Report identification_report(const mc::Study& study, const identification::Ident
   if (!study.text.empty()) report.files.emplace_back("study.toml", study.text);
   for (const identification::FilterSummary& s : id.summaries)
     if (s.heading_doubt && !study.text.empty()) {
-      report.files.emplace_back(corrected,
-                                diagnosis::study_with_positions(study, s.heading_doubt->positions));
+      report.files.push_back(
+          study_file_with_positions(corrected, study, s.heading_doubt->positions));
       break;
     }
   return report;

@@ -111,4 +111,7 @@ std::string csv_of(const Table& table);
 /// Text broken at spaces into lines of at most `width`; all but the first are indented.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent = 0);
 
+/// Text as comment lines of a TOML file, "# ..."; empty of an empty one.
+std::string as_comment(const std::string& text);
+
 }  // namespace drift::report

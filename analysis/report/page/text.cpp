@@ -118,6 +118,14 @@ std::string wrapped(const std::string& text, std::size_t width, std::size_t inde
   return out + line + '\n';
 }
 
+std::string as_comment(const std::string& text) {
+  constexpr std::size_t width = 98;  // behind "# "
+  std::istringstream lines(text.empty() ? "" : wrapped(text, width));
+  std::string out;
+  for (std::string line; std::getline(lines, line);) out += "# " + line + "\n";
+  return out;
+}
+
 std::size_t text_width(const Table& table) {
   return narrowest(column_widths(shown(table, table.limit.terminal)));
 }

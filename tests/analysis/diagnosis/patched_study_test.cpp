@@ -168,45 +168,6 @@ TEST(PatchedStudy, OfAStudyWithoutFilterIsRefused) {
   EXPECT_THROW(patched_study(study, FilterSpec{}), InputError);
 }
 
-TEST(ExtendedStudy, WritesThePresetOutAndAddsThePositions) {
-  const test::ScratchFolder folder;
-  const mc::Study study = read_text(folder, "s.toml", nominal_study);
-  const auto advice = test::diagnosis(study.filters.front()).advice.front();
-  const mc::Study again = read_text(folder, "advised.toml", extended_study(study, advice.plan));
-  ASSERT_EQ(again.plan.positions.size(), study.plan.positions.size() + 1);
-  for (std::size_t k = 0; k < study.plan.positions.size(); ++k) {
-    const Position &is = again.plan.positions[k], &was = study.plan.positions[k];
-    EXPECT_EQ(is.name, was.name);
-    EXPECT_LT((is.R_lp - was.R_lp).norm(), 1e-14);
-    EXPECT_DOUBLE_EQ(is.dwell, was.dwell);
-    EXPECT_DOUBLE_EQ(is.sample, was.sample);
-    EXPECT_EQ(is.mode, was.mode);
-    EXPECT_EQ(is.entry, was.entry);
-    EXPECT_EQ(is.case_heading.has_value(), was.case_heading.has_value());
-  }
-  EXPECT_EQ(again.plan.positions.back().axes, "x=U y=N z=W");
-  EXPECT_NEAR(again.plan.positions.back().case_heading.value(), 0.5 * detail::deg, 1e-12);
-}
-
-TEST(ExtendedStudy, WorksForEveryPreset) {
-  const test::ScratchFolder folder;
-  for (const auto preset : preset_names) {
-    std::string text = nominal_study;
-    text.replace(text.find("\"six\""), 5, "\"" + std::string(preset) + "\"");
-    text.erase(text.find("mode   = \"free\"\n"), 16);
-    const mc::Study study = read_text(folder, "s.toml", text);
-    const mc::Study again = read_text(folder, "e.toml", extended_study(study, {}));
-    ASSERT_EQ(again.plan.positions.size(), study.plan.positions.size()) << preset;
-    for (std::size_t k = 0; k < study.plan.positions.size(); ++k) {
-      const Position &is = again.plan.positions[k], &was = study.plan.positions[k];
-      EXPECT_LT((is.R_lp - was.R_lp).norm(), 1e-14) << preset;
-      EXPECT_EQ(is.mode, was.mode);
-      EXPECT_EQ(is.entry, was.entry);
-      EXPECT_NEAR(is.case_heading.value_or(0.0), was.case_heading.value_or(0.0), 1e-9);
-    }
-  }
-}
-
 TEST(PatchedStudy, AFieldThatWasFoundIsDeclared) {
   const test::ScratchFolder folder;
   mc::Study study = read_text(folder, "s.toml", nominal_study);
