@@ -95,12 +95,12 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
     }
   }
   const planning::PlanRanking ranking = planning::rank_plan(study, what, progress);
-  const report::Report said =
-      with_provenance(report::rank_report(study, ranking), report::provenance_of(study.path, {}));
+  const report::Report said = with_provenance(report::rank_report(study, ranking, options.folder),
+                                              report::provenance_of(study.path, {}));
   Rest rest{report::to_text(said), options.folder, {}, said.document.second};
   if (!options.folder.empty()) {
     const ResultsTurn turn({options.folder, "rank"});
-    rest.files = report::write_report(said, options.folder);
+    rest.files = report::write_ranking(said, options.folder);
   }
   if (shared) shared->end(ExitCode::ok);
   show_answer(said.brief, rest);
@@ -122,7 +122,7 @@ Command rank_command() {
     app.add_option("--criterion", a.rank.criterion,
                    "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
         ->needs(improve);
-    add_output(app, a.rank.folder, "folder for rank.json, pictures and report");
+    add_output(app, a.rank.folder, "folder for rank.json, pictures, report and improved.toml");
     add_json(app);
     add_sharing(app, a.rank.sharing);
     add_progress(app, a.study.progress);

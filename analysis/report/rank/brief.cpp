@@ -1,6 +1,8 @@
 #include <Eigen/QR>
 #include <algorithm>
+#include <filesystem>
 
+#include "analysis/report/page/planned_study.hpp"
 #include "analysis/report/page/study_words.hpp"
 #include "analysis/report/rank/sections.hpp"
 
@@ -142,18 +144,6 @@ std::string range_text(const observability::Ranking& r, std::size_t k, const pla
                      number_text(prior * e.high), source_of_truths(at_truth));
 }
 
-/// Whether the proposed positions do anything to the parameter that was asked for; of a criterion
-/// over all they do.
-bool gains(const planning::PlanRanking& rank) {
-  constexpr double rounding = 1e-3;  // of a sigma: what is shown has three digits
-  const observability::Ranking &before = rank.groups.front().models.front().ranking,
-                               &after = rank.better->after;
-  for (const std::size_t k : before.order)
-    if (parameter_key(before.layout, k) == rank.better->improvement.criterion.text)
-      return after.learning_ratio(k) < (1.0 - rounding) * before.learning_ratio(k);
-  return true;
-}
-
 /// What is ranked, and for whom: "eq5 (filter corrected)".
 std::string filter_text(const planning::ModelRanking& m) {
   return fmt::format("{} (filter {})", key_of(m.model.spec.coupling), m.filters);
@@ -185,7 +175,7 @@ std::string gain_text(const planning::PlanRanking& rank) {
                                 symbol == "1" ? "" : " ", symbol == "1" ? "" : symbol,
                                 range_text(after, k, rank.better->elsewhere[k], rank.at_truth)));
   }
-  if (!gains(rank)) {
+  if (!has_better_plan(rank)) {
     const std::size_t k = asked.front();
     const bool product = first.elsewhere[k].other_than(before.learning_ratio(k));
     return fmt::format(
@@ -208,28 +198,43 @@ std::string gain_text(const planning::PlanRanking& rank) {
 
 /// What to do about what is not seen.
 std::string next_text(const mc::Study& study, const planning::PlanRanking& rank,
-                      const std::vector<Seen>& seen) {
+                      const std::string& folder, const std::vector<Seen>& seen) {
   const std::string fix =
       "of a combination that no position shows, fix one parameter or declare its prior";
   const bool any_hidden = std::ranges::any_of(
       seen, [](const Seen& s) { return std::ranges::any_of(s.unseen, &NamedDirection::anywhere); });
   std::string next;
-  if (rank.better && gains(rank))
-    next = study.plan.preset.empty()
-               ? "put the positions of proposed_positions.toml behind the last "
-                 "[[plan.position]] of the study"
-               : "put the positions of proposed_positions.toml, which are all of the plan, in "
-                 "the place of the study's plan.preset";
-  else if (!rank.better && std::ranges::any_of(seen, positions_may_help))
+  if (has_better_plan(rank)) {
+    const bool one = rank.better->improvement.steps.size() == 1;
     next =
-        fmt::format("driftscope rank {} --improve 3 proposes positions to add", study_words(study));
+        folder.empty()
+            ? fmt::format("the same command with -o DIR writes {} as a study", one ? "it" : "them")
+            : fmt::format("go on with {}, the study with {} in its plan",
+                          shell_word((std::filesystem::path(folder) / improved_study).string()),
+                          one ? "this position" : "these positions");
+  } else if (!rank.better && std::ranges::any_of(seen, positions_may_help)) {
+    next = fmt::format("driftscope rank {} --improve 3 -o {} proposes positions to add",
+                       study_words(study), folder.empty() ? "out/rank" : shell_word(folder));
+  }
   if (any_hidden) next += (next.empty() ? "" : "; ") + fix;
   return next.empty() ? "" : fmt::format("Next: {}.", next);
 }
 
 }  // namespace
 
-InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank) {
+bool has_better_plan(const planning::PlanRanking& rank) {
+  constexpr double rounding = 1e-3;  // of a sigma: what is shown has three digits
+  if (!rank.better || rank.better->improvement.steps.empty()) return false;
+  const observability::Ranking &before = rank.groups.front().models.front().ranking,
+                               &after = rank.better->after;
+  for (const std::size_t k : before.order)
+    if (parameter_key(before.layout, k) == rank.better->improvement.criterion.text)
+      return after.learning_ratio(k) < (1.0 - rounding) * before.learning_ratio(k);
+  return true;
+}
+
+InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
+                      const std::string& folder) {
   InBrief brief;
   const std::vector<Seen> seen = seen_by(rank);
   brief.tone = std::ranges::all_of(seen, &Seen::whole) ? Tone::good : Tone::doubtful;
@@ -248,7 +253,9 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank)
                    "A filter has process noise, which this information does not know: what is "
                    "said here is the least that is left.");
   if (rank.assumed_field_l) brief.more.add(Weight::note, field_remark(rank));
-  brief.next = next_text(study, rank, seen);
+  if (has_better_plan(rank) && !folder.empty())
+    brief.more.add(Weight::note, unswept_text(improved_study, study));
+  brief.next = next_text(study, rank, folder, seen);
   return brief;
 }
 

@@ -112,8 +112,11 @@ std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& r
   const TestPlan& plan = rank.better->improvement.plan;
   const bool preset = !study.plan.preset.empty();
   const std::string head =
-      preset ? fmt::format("# In [plan], instead of preset = \"{}\":\n", study.plan.preset)
-             : "# After the last [[plan.position]]:\n";
+      preset ? fmt::format(
+                   "# All of the plan, behind the other keys of [plan]. Remove preset = "
+                   "\"{}\" there:\n",
+                   study.plan.preset)
+             : "# Behind the last [[plan.position]] and its keys:\n";
   const std::span positions(plan.positions);
   return head +
          planning::positions_toml(positions.subspan(preset ? 0 : study.plan.positions.size()));

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/page/planned_study.hpp"
 #include "analysis/report/page/study_section.hpp"
 #include "analysis/report/rank/sections.hpp"
+#include "core/base/results/new_results.hpp"
 
 namespace drift::report {
 namespace {
+
+constexpr const char* proposed_positions = "proposed_positions.toml";
 
 /// "6 positions in 6.00 h; linearised at the means of [truth]; noise 5 ug, 5 arcsec".
 std::string plan_line(const mc::Study& study, const planning::PlanRanking& rank) {
@@ -68,12 +72,13 @@ std::vector<std::string> headlines(const mc::Study& study, const planning::PlanR
   return all;
 }
 
-Report rank_report(const mc::Study& study, const planning::PlanRanking& rank) {
+Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
+                   const std::string& folder) {
   Report report{.command = "rank"};
   report.title = study.title.empty() ? "Observability ranking" : study.title;
   report.subtitle = plan_line(study, rank);
   report.headlines = headlines(study, rank);
-  report.brief = rank_in_brief(study, rank);
+  report.brief = rank_in_brief(study, rank, folder);
   Json document = rank_document(study, rank);
   // On a page what was asked for comes first, on a terminal last.
   const Section better = improvement(study, rank);
@@ -91,9 +96,22 @@ Report rank_report(const mc::Study& study, const planning::PlanRanking& rank) {
   report.footer = "Nothing is sampled: sigmas are Cramer-Rao bounds with the prior.";
   report.document = {"rank.json", dumped(document)};
   if (rank.better && !rank.better->improvement.steps.empty())
-    report.files.emplace_back("proposed_positions.toml", proposed_toml(study, rank));
-  if (!study.text.empty()) report.files.emplace_back("study.toml", study.text);
+    report.files.emplace_back(proposed_positions, proposed_toml(study, rank));
+  if (study.text.empty()) return report;
+  if (has_better_plan(rank))
+    report.files.push_back(
+        study_file_with_positions(improved_study, study, rank.better->improvement.plan.positions));
+  report.files.emplace_back("study.toml", study.text);
   return report;
+}
+
+std::vector<std::string> write_ranking(const Report& report, const std::string& folder) {
+  NewResults results({folder, report.command});
+  add_report(results, report);
+  for (const char* name : {proposed_positions, improved_study})
+    if (std::ranges::find(report.files, name, &TextFile::first) == report.files.end())
+      results.remove(name);
+  return results.commit();
 }
 
 }  // namespace drift::report

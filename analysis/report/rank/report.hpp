@@ -9,8 +9,14 @@
 namespace drift::report {
 
 /// All a ranking has to say: tables, pictures, rank.json (values in the units of study files),
-/// study.toml and, with an improvement, proposed_positions.toml.
-Report rank_report(const mc::Study& study, const planning::PlanRanking& rank);
+/// study.toml and, with an improvement, proposed_positions.toml and improved.toml, the study with
+/// these positions. `folder`: where all that is to be written; empty: nowhere.
+Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
+                   const std::string& folder = "");
+
+/// Writes it. Files with positions that an earlier ranking proposed go where this one proposes
+/// none. Returns names; errors as write_report().
+std::vector<std::string> write_ranking(const Report& report, const std::string& folder);
 
 /// Learning, as bits, of every parameter; eqs. (5) and (6) side by side.
 BarChart learning_chart(const planning::RankingGroup& group);

@@ -32,8 +32,17 @@ inline On shown_of(std::size_t model) {
   return model == 0 ? On::both : On::page;
 }
 
-/// What the plan sees and what not, in words; and what the proposed positions bring.
-InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank);
+/// The study with the proposed positions in its plan: a file beside the report.
+inline constexpr const char* improved_study = "improved.toml";
+
+/// Whether positions were proposed that do anything to the parameter that was asked for, of a
+/// criterion over all to any: then improved_study is written.
+bool has_better_plan(const planning::PlanRanking& rank);
+
+/// What the plan sees and what not, in words; and what the proposed positions bring. `folder`: of
+/// the files; empty where none are written.
+InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
+                      const std::string& folder = "");
 
 /// What a reader must not miss, one sentence each.
 std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank);
@@ -53,7 +62,8 @@ Table position_table(const mc::Study& study, const planning::ModelRanking& model
 /// The equation that the proposed positions were chosen for.
 std::string_view equation_of_plan(const planning::PlanRanking& rank);
 Table improvement_table(const planning::PlanRanking& rank);
-/// The proposed positions as TOML: those to append, or, where the plan is a preset, all of them.
+/// The proposed positions as TOML, to be pasted into the user's own file: those to append, or,
+/// where the plan is a preset, all that take its place.
 std::string proposed_toml(const mc::Study& study, const planning::PlanRanking& rank);
 /// Directions that the data do not see, and those that the attitude prior alone holds.
 std::vector<NamedDirection> unseen_directions(const planning::ModelRanking& model);

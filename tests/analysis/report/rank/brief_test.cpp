@@ -118,7 +118,10 @@ mode   = "level"
   const Answer a(plan + filter + "[\"K0\", \"K1\", \"K3\"]\n");
   EXPECT_TRUE(has(a.brief.verdict, "3 combinations are not seen: K1_x - K3_x, "))
       << a.brief.verdict;
-  EXPECT_TRUE(has(a.brief.next, "--improve 3")) << a.brief.next;
+  EXPECT_TRUE(has(a.brief.next, "driftscope rank s.toml --improve 3 -o out/rank proposes"))
+      << a.brief.next;
+  EXPECT_TRUE(has(rank_in_brief(a.study, a.rank, "my results").next,
+                  "--improve 3 -o 'my results' proposes"));
   EXPECT_FALSE(has(a.brief.next, "fix one parameter")) << a.brief.next;
   // Without K3 all is seen.
   const Answer whole(plan + filter + "[\"K0\", \"K1\"]\n");
