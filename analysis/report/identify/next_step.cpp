@@ -70,8 +70,8 @@ std::string next_step(const mc::Study& study, const identification::Identificati
                        positions_text(id.absent_positions));
   if (j.unlearned)
     return fmt::format(
-        "Next: driftscope rank {}{} --improve 3 proposes positions that show what this test does "
-        "not.{}",
+        "Next: driftscope rank {}{} --improve 3 -o out/rank proposes positions that show what this "
+        "test does not.{}",
         study_words(study), absent_to_rank_with(id), covariates_to_rank_with(study));
   return "";
 }

@@ -41,6 +41,24 @@ TEST(CopiedCommands, OfFilesWithBlanksAndQuotesRun) {
       << looked.out;
 }
 
+TEST(CopiedCommands, ThatProposePositionsWriteThem) {
+  const ScratchFolder folder;
+  folder.write("s.toml", test::cheap_study());
+  const auto there = [&](const std::string& arguments) {
+    return test::run_program(
+        "/bin/bash", "-c \"cd '" + folder.path() + "'; '" DRIFT_PROGRAM "' " + arguments + "\"");
+  };
+  for (const char* command : {"rank", "identify"}) {
+    const Answer first = there(std::string(command) + " s.toml");
+    ASSERT_EQ(first.code, 0) << first.err;
+    std::filesystem::remove_all(folder.file("out"));
+    const Answer proposed = there(arguments_of(first.out, "rank", " proposes"));
+    ASSERT_EQ(proposed.code, 0) << first.out << proposed.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("out/rank/improved.toml"))) << proposed.out;
+    EXPECT_EQ(there("rank out/rank/improved.toml").code, 0);
+  }
+}
+
 TEST(CopiedCommands, OfANewStudyRun) {
   const ScratchFolder folder;
   const std::string made = shell_word(folder.file("a new study.toml"));
