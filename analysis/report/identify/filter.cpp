@@ -212,10 +212,17 @@ Section estimates(const FilterView& v) {
 /// What the test does not see under this filter.
 Section unseen(const FilterView& v) {
   const identification::FilterSummary& s = v.summary;
-  Table table = direction_table(
-      fmt::format("Directions in parameter space that filter {} does not see: of {}, {}. {} (with "
-                  "these) are known better from the prior than from the data",
-                  v.spec().name, s.layout.size(), unseen_text(s.unseen, root_of(v)), s.weak));
+  const std::string title = fmt::format("Directions in parameter space that filter {} does not see",
+                                        v.spec().name),
+                    better = fmt::format("{} known better from the prior than from the data",
+                                         s.weak == 1 ? "is" : "are");
+  if (s.unseen.empty())
+    return {"",
+            {Paragraph{fmt::format("{}: none of {}.{}", title, s.layout.size(),
+                                   s.weak == 0 ? "" : fmt::format(" {} {}.", s.weak, better))}}};
+  Table table =
+      direction_table(fmt::format("{}: of {}, {}. {} (with these) {}", title, s.layout.size(),
+                                  unseen_text(s.unseen, root_of(v)), s.weak, better));
   add_directions(table, unseen_directions(v));
   return {"", {table}};
 }

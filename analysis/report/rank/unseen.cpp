@@ -19,7 +19,6 @@ Table null_table(const planning::ModelRanking& m) {
         "Only the prior of the attitude at the cagings holds these (signal: without that prior):");
     add_directions(t, held);
   }
-  if (t.rows.empty()) t.note = "None: every direction leaves a signal.";
   return t;
 }
 
@@ -82,7 +81,11 @@ Section unseen(const RankedGroup& v) {
     tables.pop_back();
     tables[0].title = "Directions this test does not see, by eq. (5) or (6)";
   }
-  for (Table& t : tables) section.add({std::move(t)});
+  for (Table& t : tables)
+    if (t.rows.empty())
+      section.add({Paragraph{t.title + ": none. Every direction leaves a signal."}});
+    else
+      section.add({std::move(t)});
   return section;
 }
 
