@@ -247,6 +247,12 @@ def chapter_is_true():
     assert code.count("driftscope.") > 10
     said = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
     assert said.returncode == 0, said.stderr
+    # What the chapter prints as silent failures are those of the report.
+    points = driftscope.summary("out/dwell")["points"]
+    rates = [[f["starts"][0]["silent_failure_rate"]["value"] for f in point["filters"]] for point in points]
+    filters = driftscope.open("out/dwell", "filters")
+    assert np.array_equal(filters.silent_failure_rate.sel(start=1).values, rates) and np.max(rates) > 0.5, rates
+    assert filters.silent_failure_rate.sel(start=1).to_pandas().to_string() in said.stdout, said.stdout
 
 
 for test in (exports_agree, points_of_different_lengths_are_padded, an_export_is_outdated_by_what_is_stored, an_identification_agrees_with_itself, errors_say_what_to_do,
