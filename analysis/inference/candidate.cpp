@@ -114,6 +114,9 @@ std::string label_of(const TermInfo& term, const std::vector<std::size_t>& set,
           fmt::format(" {}", set.size() == 1 ? TermLibrary::specs[set.front()].key.view() : group);
     else if (axis.empty() || set.size() < of_axis(missing, axis))
       label += fmt::format(" {}", fmt::join(groups, " "));
+  } else if (set.size() < (axis.empty() ? missing.size() : of_axis(missing, axis))) {
+    // Of the few that no axis tells apart: the cosine, the sine, both.
+    for (const std::size_t i : set) label += fmt::format(" {}", TermLibrary::specs[i].key.view());
   }
   return label;
 }

@@ -28,7 +28,7 @@ struct Variant {
 struct Candidate {
   std::string term;   ///< key of the term
   std::string axis;   ///< "x", "outer", ...; empty if it belongs to none or to all
-  std::string label;  ///< "magnetic_drift.y", "g2_drift D_IS_x"
+  std::string label;  ///< "magnetic_drift.y", "g2_drift D_IS_x": no two of a set have the same
   std::vector<std::size_t>
       params;                     ///< linear parameters, same order as the columns of each variant
   std::vector<Variant> variants;  ///< neighbours on the grid stand next to each other
