@@ -5,6 +5,7 @@
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
@@ -151,7 +152,7 @@ Blocks residual_figure(const Diagnosis& d) {
   Chart chart{compared ? "Residuals before and after" : "Residuals of the nominal model",
               {},
               2,
-              520.0,
+              half_sheet,
               190.0};
   const auto add = [&](const MatX& residual, Eigen::Index channel, std::size_t colour,
                        const char* label, std::string title) {

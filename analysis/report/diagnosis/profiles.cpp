@@ -4,6 +4,7 @@
 
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 #include "core/stats/normal.hpp"
 
@@ -116,7 +117,7 @@ Json profiles_json(const std::vector<Profile>& profiles) {
 /// How the fit gets worse where a parameter of a cause is held elsewhere.
 Section profiles(const diagnosis::Diagnosis& d) {
   if (d.profiles.empty()) return {};
-  Chart chart{"Profiles of the parameters of the causes", {}, 2, 480.0, 250.0};
+  Chart chart{"Profiles of the parameters of the causes", {}, 2, half_sheet, 250.0};
   Sentences said;
   for (const Profile& p : d.profiles) {
     chart.panels.push_back(profile_panel(p));

@@ -4,6 +4,7 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 #include "core/base/units.hpp"
 #include "core/stats/chi_square_band.hpp"
@@ -185,7 +186,7 @@ Section estimate_figures(const mc::Study& study, const identification::Identific
   Chart nis{"Normalised innovations squared",
             {},
             std::min<std::size_t>(id.summaries.size(), 2),
-            540.0,
+            half_sheet,
             260.0};
   Blocks alone;
   std::vector<std::string> taken;

@@ -2,6 +2,7 @@
 
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
@@ -135,7 +136,7 @@ Section honesty(const StudyResults& results) {
 
 /// The silent failure rate as more and more runs came in.
 Section rate_course(const StudyResults& results) {
-  Chart chart{"Silent failures against the number of runs", {}, 2, 480.0, 250.0};
+  Chart chart{"Silent failures against the number of runs", {}, 2, half_sheet, 250.0};
   Sentences said;
   for (const std::size_t p : pictured_points(results)) {
     Panel panel;

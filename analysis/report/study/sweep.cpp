@@ -6,6 +6,7 @@
 #include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/study/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "analysis/report/svg/zoomable.hpp"
 
 namespace drift::report {
@@ -111,7 +112,7 @@ Section sweep(const StudyResults& results) {
       if (const auto number = swept_number(point.values[a].second)) at.push_back(*number);
     if (!stand_for(at, results, a)) continue;
     const std::string& key = results.points.front().values[a].first;
-    Chart chart{fmt::format("Against {}", key), {}, 2, 480.0, 270.0};
+    Chart chart{fmt::format("Against {}", key), {}, 2, half_sheet, 270.0};
     for (const Statistic& s : statistics(claims_of(results)))
       chart.panels.push_back(panel_of(results, s, a, at));
     section.add({figure_of(

@@ -9,10 +9,13 @@ namespace drift::report {
 
 inline constexpr double canvas_edge = 14.0;   ///< [px] left empty on either side of a picture
 inline constexpr double narrow_page = 540.0;  ///< [px] what a window of 600 has for a picture
-inline constexpr double least_plot = 90.0;    ///< [px] of an axis beside labels; else they go above
+inline constexpr double half_sheet =
+    448.0;  ///< [px] of a panel, two of which fit side by side on paper
+inline constexpr double least_plot = 90.0;  ///< [px] of an axis beside labels; else they go above
 
 /// Sizes of type [px]: the smallest, on axes and beside bars, and that of labels. Pages do not
-/// scale pictures down, so that no text is smaller than this.
+/// scale pictures down on a screen of 600 px or more, so that no text is smaller than this; how far
+/// they do on a smaller one and on paper: page/style.hpp.
 inline constexpr double small_type = 12.0, label_type = 12.5;
 inline constexpr double label_line = 15.0;  ///< [px] from one line of a label to the next
 
