@@ -9,7 +9,14 @@
 namespace drift::report {
 namespace {
 
-constexpr double bar_row = 22.0, label_row = 16.0, axis_height = 44.0;  // [px]
+constexpr double usual_row = 22.0, label_row = 16.0, axis_height = 44.0;  // [px]
+
+/// Bars stand closer where they are so many that a sheet of paper would not take them all: the
+/// style prints 1210 px on one (page_style).
+double row_of(std::size_t bars) {
+  constexpr double closest = 13.0, most = 1210.0 - axis_height - 72.0;  // title, limit, lines [px]
+  return std::clamp(most / static_cast<double>(std::max<std::size_t>(bars, 1)), closest, usual_row);
+}
 
 std::string text_of(const Bar& bar) {
   if (!bar.text.empty()) return bar.text;
@@ -32,7 +39,8 @@ std::string svg_of(const BarChart& chart) {
   const double room = width - value_width - canvas_edge - 8.0;
   const bool above = room - (canvas_edge + label_width + 8.0) < least_plot;  // labels above bars
   const double x0 = canvas_edge + (above ? 0.0 : label_width) + 8.0, w = room - x0;
-  const double under = above ? label_row : 0.0, row = bar_row + under;
+  const double bar_row = row_of(chart.bars.size()), gap = std::min(4.0, 0.5 * (bar_row - 9.0)),
+               under = above ? label_row : 0.0, row = bar_row + under;
   const double y0 = (chart.title.empty() ? 8.0 : 40.0) + (chart.limit ? 16.0 : 0.0);
   const double h = row * static_cast<double>(chart.bars.size());
   const AxisScale scale = make_scale(range, static_cast<int>(w / 60.0), 0.02, chart.spacing);
@@ -55,7 +63,7 @@ std::string svg_of(const BarChart& chart) {
       canvas.text(x0 - 8.0, middle + 4.0, b.label, {.anchor = "end"});
     double end = zero;  // text stands right of bar and interval
     if (const double at = x_of(b.value); std::isfinite(at)) {
-      canvas.rectangle(std::min(at, zero), y + 4.0, std::abs(at - zero), bar_row - 8.0,
+      canvas.rectangle(std::min(at, zero), y + gap, std::abs(at - zero), bar_row - 2.0 * gap,
                        palette(b.colour), 0.85);
       end = std::max(end, at);
     }

@@ -192,6 +192,20 @@ std::vector<double> numbers_at(const std::string& svg, const std::string& attrib
   return found;
 }
 
+TEST(BarChart, OfManyBarsIsNoHigherThanASheetOfPaperTakesAtAReadableSize) {
+  for (const int bars : {20, 60, 80}) {
+    report::BarChart chart{.title = "t", .x_label = "x", .bars = {}, .limit = {}};
+    for (int k = 0; k < bars; ++k) chart.bars.push_back({.label = "D_I_z", .value = 1.0 + k});
+    const std::string svg = svg_of(chart);
+    EXPECT_LE(numbers_at(svg, "height").at(0), 1210.0) << bars;
+    EXPECT_GE(numbers_at(svg, "height").at(0), 13.0 * bars) << "room for text of 12.5 px";
+    const std::vector<double> heights = numbers_at(svg, " height");  // drawing, background, bars
+    ASSERT_EQ(heights.size(), static_cast<std::size_t>(bars) + 2) << bars;
+    EXPECT_GE(heights.back(), 9.0) << bars;
+    if (bars == 20) EXPECT_EQ(heights.back(), 14.0);
+  }
+}
+
 /// A picture that was drawn anew for a narrow page: it fits, and shows the same texts.
 void expect_narrow(const report::Figure& figure, std::size_t texts) {
   EXPECT_EQ(test::xml_problem(figure.narrow).value_or(""), "");
