@@ -5,16 +5,26 @@
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/page/report.hpp"
 #include "analysis/report/page/style.hpp"
+#include "analysis/report/page/tone_class.hpp"
 #include "analysis/report/page/zoom.hpp"
 
 namespace drift::report {
 namespace {
 
-/// Inside HTML an <svg> needs no namespace, and the page shall hold no address at all.
+/// Inside HTML an <svg> needs no namespace, and the page shall hold no address at all; how wide it
+/// was drawn is told to the style, which scales it on paper and on a telephone.
 std::string inlined(std::string svg) {
-  constexpr std::string_view name_space = " xmlns=\"http://www.w3.org/2000/svg\"";
-  for (auto at = svg.find(name_space); at != std::string::npos; at = svg.find(name_space))
-    svg.erase(at, name_space.size());
+  constexpr std::string_view name_space = " xmlns=\"http://www.w3.org/2000/svg\"",
+                             box = " viewBox=\"0 0 ";
+  for (auto at = svg.find(name_space); at != std::string::npos; at = svg.find(name_space)) {
+    std::string drawn;
+    if (const auto from = at + name_space.size(); svg.compare(from, box.size(), box) == 0) {
+      const auto width = from + box.size();
+      drawn =
+          fmt::format(" style=\"--drawn: {}\"", svg.substr(width, svg.find(' ', width) - width));
+    }
+    svg.replace(at, name_space.size(), drawn);
+  }
   return svg;
 }
 
@@ -23,20 +33,6 @@ std::string list_of(const std::vector<std::string>& items, std::string_view css_
   std::string out = fmt::format("<ul class=\"{}\">\n", css_class);
   for (const auto& item : items) out += "<li>" + escaped(item) + "</li>\n";
   return out + "</ul>\n";
-}
-
-std::string_view tone_class(Tone tone) {
-  switch (tone) {
-    case Tone::good:
-      return " good";
-    case Tone::doubtful:
-      return " doubtful";
-    case Tone::bad:
-      return " bad";
-    case Tone::plain:
-      break;
-  }
-  return "";
 }
 
 /// Lines of a table or a text beyond which it is folded in place.
@@ -52,14 +48,12 @@ std::string picture_of(const Figure& f, std::string_view classes) {
   const FlowingPanels& flowing = f.flowing;
   if (flowing.panels.empty())
     return fmt::format("<div class=\"scroll{}\">{}</div>", classes, inlined(f.svg));
-  const std::size_t columns = std::min(flowing.columns, flowing.panels.size()),
-                    rows = (flowing.panels.size() + columns - 1) / columns;
+  const std::size_t columns = std::min(flowing.columns, flowing.panels.size());
   const double width =
       std::max(static_cast<double>(columns) * flowing.panel_width, flowing.head_width);
   std::string out = fmt::format(
-      "<div class=\"scroll panels{}\" style=\"--columns: {}; --rows: {}; max-width: {:.0f}px\">"
-      "<div class=\"head\">{}</div>",
-      classes, columns, rows, width + 1.0, inlined(flowing.head));
+      "<div class=\"scroll panels{}\" style=\"max-width: {:.0f}px\"><div class=\"head\">{}</div>",
+      classes, width + 1.0, inlined(flowing.head));
   for (const std::string& panel : flowing.panels) out += inlined(panel);
   return out + "</div>";
 }
@@ -210,34 +204,6 @@ std::string part_of(const Report& report, Part part) {
 }
 
 }  // namespace
-
-std::string html_of(const Table& whole) {
-  constexpr std::size_t most_upright = 9;  // columns of a table that a page takes upright
-  const Table table = shown(whole, whole.limit.page);
-  const auto side = [&](std::size_t c) { return table.columns[c].left ? "left" : "right"; };
-  std::string out = fmt::format("<div class=\"scroll{}\"><table>\n",
-                                table.columns.size() > most_upright ? " wide" : "");
-  if (!table.title.empty()) out += "<caption>" + escaped(table.title) + "</caption>\n";
-  out += "<thead><tr>";
-  for (std::size_t c = 0; c < table.columns.size(); ++c)
-    out += fmt::format("<th scope=\"col\" class=\"{}\">{}</th>", side(c),
-                       escaped(table.columns[c].heading));
-  out += "</tr></thead>\n<tbody>\n";
-  for (const TableRow& row : table.rows) {
-    out += "<tr>";
-    if (row.heading)
-      out += fmt::format("<th colspan=\"{}\" class=\"left\">{}</th>", table.columns.size(),
-                         escaped(row.cells.front().text));
-    else
-      for (std::size_t c = 0; c < row.cells.size(); ++c)
-        out += fmt::format("<td class=\"{}{}\">{}</td>", side(c), tone_class(row.cells[c].tone),
-                           escaped(row.cells[c].text));
-    out += "</tr>\n";
-  }
-  out += "</tbody></table></div>\n";
-  if (!table.note.empty()) out += "<p class=\"note\">" + escaped(table.note) + "</p>\n";
-  return out;
-}
 
 std::string to_html(const Report& report) {
   std::string body = answer_of(report);

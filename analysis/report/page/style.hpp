@@ -6,7 +6,10 @@ namespace drift::report {
 
 /// The look of every page: light or dark as the reader's system is, light on paper. Figures keep
 /// their size, so that their text stays readable; a window narrower than 860 px and its margins
-/// gets those that were drawn for it. A dark page turns their lightness and keeps their hues.
+/// gets those that were drawn for it, one narrower than these scales them, but text of 12 px to no
+/// less than 8. Paper has them at 0.78 of their size, where text of 12 px is 7 pt, if they are not
+/// higher than a sheet (--drawn: the width of a drawing). A dark page turns their lightness and
+/// keeps their hues.
 inline constexpr std::string_view page_style = R"css(
 :root { color-scheme: light dark; --ink: #222; --dim: #555; --paper: #fff; --edge: #ccc;
         --soft: #f7f7f7; --head: #e9eef4; --box: #f3f6fa; --accent: #0072B2;
@@ -35,6 +38,11 @@ p, li { overflow-wrap: anywhere; }
 .small { color: var(--dim); font-size: .82rem; }
 .scroll { overflow-x: auto; } .narrow { display: none; }
 @media screen and (max-width: 908px) { .scroll.roomy { display: none; } .narrow { display: block; } }
+@media screen and (max-width: 588px) {
+  body { padding: .75rem; }
+  .scroll > svg, .head > svg { max-width: 100%; height: auto;
+                               min-width: calc(var(--drawn) * .667px); }
+}
 table { border-collapse: collapse; font-size: .86rem; margin: .8rem 0 .3rem;
         font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
@@ -44,7 +52,7 @@ tbody tr:nth-child(even) { background: var(--soft); }
 tbody th { font-weight: normal; font-style: italic; color: var(--dim); background: var(--head);
            white-space: normal; }
 .left { text-align: left; } .right { text-align: right; }
-td.left { white-space: normal; overflow-wrap: anywhere; min-width: 5em; }
+td.left { white-space: normal; overflow-wrap: break-word; } td.remark { min-width: min(16em, 40vw); }
 .good { color: var(--good); } .doubtful { color: var(--doubtful); }
 .bad { color: var(--bad); font-weight: bold; }
 figure { margin: 1rem 0; } figure svg { display: block; }
@@ -61,18 +69,20 @@ summary { cursor: pointer; color: var(--accent); font-weight: bold; }
 @media print {
   body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.4; }
   figure button, figure .note, .zoomed { display: none; } .replaced { display: block; }
-  .answer, figure, tr { break-inside: avoid; } h2, h3, summary { break-after: avoid; }
-  .scroll { overflow: visible; } .scroll.wide { page: sideways; }
+  .answer, figure, tr, section > .scroll { break-inside: avoid; }
+  h2, h3, summary { break-after: avoid; }
+  .scroll { overflow: visible; } 
+  .wide, :is(h2, h3, summary):has(+ .wide), h2:has(+ h3 + .wide) { page: sideways; }
   h1 { font-size: 15pt; } h2 { font-size: 12.5pt; margin: 10pt 0 3pt; }
   h3 { font-size: 10.5pt; margin: 7pt 0 2pt; } p, ul { margin: 3pt 0; }
   .verdict { font-size: 10pt; } .answer { padding: 4pt 8pt; margin: 6pt 0; }
   .subtitle, .note, .small, figcaption, footer { font-size: 8.5pt; }
   details:not([open]) { display: inline-block; margin: 0 12pt 0 0; }
-  figure { margin: 4pt 0; } figure svg { max-width: 100%; height: auto; max-height: 60mm; }
-  .panels { max-width: none !important; }
-  .panels > svg { width: calc(99% / var(--columns)); max-height: calc(5mm + 44mm / var(--rows)); }
-  .panels > .head svg { max-height: 12mm; }
+  figure { margin: 4pt 0; }
+  .scroll > svg, .head > svg { width: calc(var(--drawn) * .78px); height: auto;
+                               max-width: 100%; max-height: 250mm; }
   th, td { padding: .1rem .35rem; } table { font-size: 8pt; }
+  td.remark { min-width: 10em; } thead th { white-space: normal; vertical-align: bottom; }
   thead { display: table-header-group; }
 }
 )css";

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "analysis/report/page/escape.hpp"
 #include "analysis/report/page/json.hpp"
+#include "analysis/report/page/style.hpp"
+#include "analysis/report/svg/svg_canvas.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::report::report_test {
@@ -76,6 +79,51 @@ TEST(OneTable, WrapsALastColumnOfWordsThatDoesNotFit) {
     EXPECT_LE(display_width(line), 40u) << line;
   EXPECT_TRUE(holds(all, "     1 because of this"));
   EXPECT_TRUE(holds(all, "\n       ")) << "continued below the words:\n" << all;
+}
+
+TEST(OneTable, LiesSidewaysOnPaperWithItsNoteOnlyWhereItsTextsNeedIt) {
+  Table upright("Many columns", "a | b | c | d | e | f | g | h | <i | j of three words", "A note."),
+      wide("Wide ones", "a | b | c | d | e | f", "Another.");
+  upright.add(
+      {"eq5", "eq5", 100, "0.9961", "1.006", "95.4", "99.0", "0.0", "eta_z", "0.0 % (0.0)"});
+  wide.add(std::vector<Cell>(6, "0.0123 to 0.0345 arcsec"));
+  EXPECT_TRUE(html_of(upright).starts_with("<div class=\"scroll\"><table>\n<caption>"));
+  EXPECT_TRUE(html_of(wide).starts_with("<div class=\"wide\"><div class=\"scroll\"><table>\n"));
+  EXPECT_TRUE(html_of(wide).ends_with("</div>\n<p class=\"note\">Another.</p>\n</div>\n"));
+  // Sentences are broken, and take what others leave.
+  upright.rows[0].cells[8] = "with it, others stay significant, and it would be 14 times its size";
+  EXPECT_TRUE(html_of(upright).starts_with("<div class=\"scroll\"><table>\n"));
+  EXPECT_TRUE(holds(html_of(upright), "<td class=\"left remark\">with it, others"));
+  EXPECT_FALSE(holds(html_of(upright), "<td class=\"right remark\">"));
+}
+
+/// What the style multiplies the width of drawings by, from `place` on.
+double scale_after(std::string_view place) {
+  const std::string style(page_style);
+  constexpr std::string_view factor = "calc(var(--drawn) * ";
+  const auto at = style.find(factor, style.find(place));
+  return at == std::string::npos ? 0.0 : std::strtod(style.c_str() + at + factor.size(), nullptr);
+}
+
+TEST(PageStyle, ScalesNoTextOfAFigureBelowWhatCanBeRead) {
+  constexpr double sheet = 186.0 / 25.4 * 96.0, points = 72.0 / 96.0;  // [px], pt of a px
+  const double printed = scale_after("@media print");
+  EXPECT_GE(small_type * printed * points, 7.0);
+  EXPECT_LE(2.0 * half_sheet * printed, sheet) << "two panels beside each other";
+  EXPECT_LE(860.0 * printed, sheet) << "the widest drawings";
+  EXPECT_GE(small_type * scale_after("@media screen and (max-width: 588px)"), 8.0);
+}
+
+TEST(PageStyle, IsToldHowWideADrawingIs) {
+  const auto page_with = [](const char* svg) {
+    Report report;
+    report.add({{"One", {Figure{svg, "drawn"}}}});
+    return to_html(report);
+  };
+  EXPECT_TRUE(
+      holds(page_with("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 860 268\"></svg>"),
+            "<svg style=\"--drawn: 860\" viewBox=\"0 0 860 268\"></svg>"));
+  EXPECT_TRUE(holds(page_with("<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>"), "<svg></svg>"));
 }
 
 Report two_sections() {
