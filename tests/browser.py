@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Pages of all five commands in headless Chromium: browser.py DRIFTSCOPE [KEEP]
 
-Each page is made by the program from a small study and looked at 1400 and 600 px wide, light and dark,
-and printed:
+Each page is made by the program from a small study and looked at 1400, 600 and 400 px wide, light and
+dark, and printed:
   - nothing is wider than the window, but for tables, which scroll; no picture needs to
-  - no text of a figure is smaller than 12 px, lies outside its picture, or over another text of it
+  - no text of a figure is smaller than 12 px (8 at 400 px, 7 pt on paper), lies outside its picture, or
+    over another text of it; no table is wider than its sheet
   - a dark page is dark and its text light
   - with its details folded it prints on at most four pages; how high it is, is told
   - a figure that can be zoomed is drawn by the script of the page itself, with no error in it, and
@@ -23,9 +24,11 @@ import subprocess
 import sys
 import tempfile
 
-WIDTHS = (1400, 600)
+WIDTHS = {1400: 12.0, 600: 12.0, 400: 8.0}  # and the smallest text of a figure there [px]
 MODES = {"light": "1", "dark": "0"}  # Chromium's preferredColorScheme
-MOST_PAGES, SMALLEST_TEXT = 4, 12.0
+MOST_PAGES = 4
+SHEET, SIDEWAYS = 703, 1032  # [px] of A4 within its margins of 12 mm
+PRINTED_TEXT = 7.0 * 96 / 72  # [px] of 7 pt
 
 # What is measured in the page; the result is left in the body as text.
 MEASURE = """
@@ -38,7 +41,11 @@ function light(colour) {
 function measure() {
   const out = {width: innerWidth, page: document.documentElement.scrollWidth,
                height: document.documentElement.scrollHeight, smallest: 1e9, texts: 0,
-               outside: [], crossed: [], scrolled: [], figures: 0, errors: window.failed};
+               outside: [], crossed: [], scrolled: [], figures: 0, tables: [], errors: window.failed};
+  for (const table of document.querySelectorAll('table')) {
+    const most = table.closest('.wide') ? %SIDEWAYS% : %SHEET%, wide = table.getBoundingClientRect().width;
+    if (wide > most + 1) out.tables.push(wide.toFixed(0) + ' px: ' + table.textContent.trim().slice(0, 40));
+  }
   for (const svg of document.querySelectorAll('figure .scroll > svg, figure .head > svg')) {
     if (!svg.getClientRects().length) continue;  // drawn for another width
     ++out.figures;
@@ -82,7 +89,7 @@ function leave(out) {
   document.documentElement.innerHTML = '<body><pre id="measured"></pre></body>';
   document.getElementById('measured').textContent = JSON.stringify(out);
 }
-"""
+""".replace("%SHEET%", str(SHEET)).replace("%SIDEWAYS%", str(SIDEWAYS))
 
 STUDY = """schema = 1
 title  = "browser test"
@@ -176,6 +183,12 @@ def printed_pages(browser, page, folder):
     return len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
 
 
+def as_on_paper(page):
+    """A page that shows in a window what paper has, where nothing is zoomed: no script can measure a printed page."""
+    page = page.replace('<figure class="zoomable">', "<figure>")
+    return page.replace("@media screen", "@media !").replace("@media print", "@media screen").replace("@media !", "@media print")
+
+
 def complaints_of_policy(page):
     """The script of a page is the one its policy names, or browsers do not run it."""
     scripts = re.findall(r"<script>(.*?)</script>", page, re.S)
@@ -187,19 +200,29 @@ def complaints_of_policy(page):
         yield "figures to zoom and no script"
 
 
+def complaints_of_figures(m, smallest):
+    if m["texts"] == 0:
+        yield "no figure has any text"
+    if m["smallest"] < smallest - 0.01:
+        yield f"text of {m['smallest']:.1f} px in a figure (expected at least {smallest:.1f})"
+    for what, said in (("texts outside its figure", m["outside"]), ("texts over another", m["crossed"]),
+                       ("pictures wider than their place", m["scrolled"])):
+        if said:
+            yield f"{len(said)} {what}, as {said[:3]}"
+
+
+def complaints_of_paper(m):
+    yield from complaints_of_figures(m, PRINTED_TEXT)
+    if m["tables"]:
+        yield f"{len(m['tables'])} tables wider than a sheet, as {m['tables'][:3]}"
+
+
 def complaints_of(m, width, mode):
     if m["width"] != width:
         yield f"the window is {m['width']} px wide"
     if m["page"] > width:
         yield f"the page is {m['page']} px wide"
-    if m["texts"] == 0:
-        yield "no figure has any text"
-    if m["smallest"] < SMALLEST_TEXT - 0.01:
-        yield f"text of {m['smallest']:.1f} px in a figure (expected at least {SMALLEST_TEXT:.0f})"
-    for what, said in (("texts outside its figure", m["outside"]), ("texts over another", m["crossed"]),
-                       ("pictures wider than their place", m["scrolled"])):
-        if said:
-            yield f"{len(said)} {what}, as {said[:3]}"
+    yield from complaints_of_figures(m, WIDTHS[width])
     if (m["paper"] < m["ink"]) != (mode == "dark"):
         yield f"paper of {m['paper']:.0f}, ink of {m['ink']:.0f}"
     if m["errors"]:
@@ -219,6 +242,11 @@ def check_the_check(browser, page, folder):
     for what in ("the page is 3", "text of 9.0 px", "texts outside", "texts over another", "pictures wider", "paper of"):
         if what not in said:
             yield f"the check itself: '{what}' is missing in: {said}"
+    spoilt = page.replace("--drawn: 860", "--drawn: 400").replace("<table>", '<table style="width: 1200px">')
+    said = " ".join(complaints_of_paper(measured(browser, as_on_paper(spoilt), SHEET, "light", folder)))
+    for what in ("text of 4.4 px", "tables wider than a sheet"):
+        if what not in said:
+            yield f"the check itself, on paper: '{what}' is missing in: {said}"
 
 
 def main():
@@ -239,8 +267,11 @@ def main():
         for name, path in pages_made.items():
             page = path.read_text()
             pages = printed_pages(browser, path, folder)
-            high = measured(browser, page, WIDTHS[0], "light", folder, opened=False)["height"]
-            line = f"{name}: {len(page) // 1000} kB, {pages} printed pages, {high} px high at {WIDTHS[0]} px with its details folded"
+            high = measured(browser, page, max(WIDTHS), "light", folder, opened=False)["height"]
+            printed = measured(browser, as_on_paper(page), SHEET, "light", folder)
+            line = (f"{name}: {len(page) // 1000} kB, {pages} printed pages, text of a figure there from {printed['smallest'] * 72 / 96:.1f} pt, "
+                    f"{high} px high at {max(WIDTHS)} px with its details folded")
+            wrong += [f"{name}, on paper: {what}" for what in complaints_of_paper(printed)]
             if not 1 <= pages <= MOST_PAGES:
                 wrong.append(f"{name}: {pages} printed pages (expected 1 to {MOST_PAGES})")
             wrong += [f"{name}: {what}" for what in complaints_of_policy(page)]
