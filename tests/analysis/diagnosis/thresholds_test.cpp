@@ -124,7 +124,8 @@ TEST(Thresholds, TheNearestKnownExplainsATwentiethOfTheMisfit) {
 
 /// Of something significant, with a cause that fits or without; noise: probability that nothing is
 /// missing.
-Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0) {
+Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_gain = 2.0,
+                   double wrong_priors = 0.0) {
   search::Search found;
   found.significant = true;
   if (cause) found.sets.emplace_back();
@@ -132,7 +133,8 @@ Verdict verdict_of(double noise, bool cause, bool noise_competes, double member_
   search::Posterior posterior;
   posterior.consistent = 0.0;
   posterior.noise_only = noise;
-  posterior.outside = 1.0 - noise;
+  posterior.wrong_priors = wrong_priors;
+  posterior.outside = 1.0 - noise - wrong_priors;
   HeldOut held_out;
   held_out.folds.resize(6);
   held_out.improves = true;
@@ -157,6 +159,12 @@ TEST(Thresholds, ACauseOrNoiseIsAmbiguousUnlessOneOfThemIsCredible) {
   EXPECT_EQ(verdict_of(0.06, true, true), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.94, true, true), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.96, true, true), Verdict::consistent);
+}
+
+TEST(Thresholds, ACauseOrWrongPriorsIsAmbiguousUnlessTheseAreNotCredible) {
+  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.04), Verdict::named);
+  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.06), Verdict::ambiguous);
+  EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.97), Verdict::ambiguous);
 }
 
 TEST(Thresholds, WhatIsMoreProbableOutsideTheLibraryIsSaidBesideItsCause) {
