@@ -33,6 +33,7 @@ struct CauseParameter {
   double high_95 = std::numeric_limits<double>::quiet_NaN();
   /// Of a discrete setting: all values that hold 95 % together, where these are several.
   std::vector<double> any_of = {};
+  bool less_mean = false;  ///< less the mean of the three axes, which the test does not see
 
   /// The 95 % interval: by refits where there is one, else by the sigma.
   bool by_refits() const { return std::isfinite(low_95) && std::isfinite(high_95); }

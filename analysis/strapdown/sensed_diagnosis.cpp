@@ -82,13 +82,15 @@ Vec3 scales_with(const Diagnosis& d, Vec3 scales, int set) {
   return scales;
 }
 
-void shift(CauseParameter& p, double by) {
-  for (double* v : {&p.value, &p.low_95, &p.high_95}) *v += by;
+void take_out(CauseParameter& p, double mean) {
+  for (double* v : {&p.value, &p.low_95, &p.high_95}) *v -= mean;
+  p.less_mean = true;
 }
 
-void shift(Profile& p, double by) {
-  for (double* v : {&p.value, &p.top, &p.low_95, &p.high_95}) *v += by;
-  for (Profile::Point& at : p.points) at.value += by;
+void take_out(Profile& p, double mean) {
+  for (double* v : {&p.value, &p.top, &p.low_95, &p.high_95}) *v -= mean;
+  for (Profile::Point& at : p.points) at.value -= mean;
+  p.less_mean = true;
 }
 
 }  // namespace
@@ -121,9 +123,9 @@ void take_common_drift_out(Diagnosis& d) {
     double mean = 0.0;
     for (const CauseParameter* p : parameters) mean += p->value / 3.0;
     for (CauseParameter* p : parameters) {
-      shift(*p, -mean);
+      take_out(*p, mean);
       for (Profile& profile : d.profiles)
-        if (profile.set == set && profile.param == p->param) shift(profile, -mean);
+        if (profile.set == set && profile.param == p->param) take_out(profile, mean);
     }
     taken = true;
   }

@@ -16,6 +16,7 @@ namespace drift::report {
 namespace {
 
 constexpr std::size_t most_numbers = 3;
+constexpr std::string_view less_the_mean = "less the mean of the three";
 
 /// What an axis of a term belongs to: "gyro y", "accelerometer y", "axis y", "outer gimbal".
 std::string part_of(const TermInfo& term, std::string_view axis) {
@@ -52,9 +53,13 @@ std::string value_of(const search::CauseParameter& p) {
                      low && high ? " to " : "", high ? number(p.high_95) : "");
 }
 
-std::string number_of(const search::CauseParameter& p) {
+/// What a number is relative to: said of each, or once behind all.
+enum class Note { said, left_out };
+
+std::string number_of(const search::CauseParameter& p, Note note = Note::said) {
   std::string text = fmt::format("{} = {}{}{}", p.key, value_of(p), p.unit == "1" ? "" : " ",
                                  p.unit == "1" ? "" : p.unit);
+  if (note == Note::said && p.less_mean) text += fmt::format(" {}", less_the_mean);
   if (const double size = in_prior_sigmas(p); size > unusual_size)
     text += fmt::format(", {} times its usual size", number_text(size, 2));
   return text;
@@ -68,9 +73,13 @@ std::string numbers_of(const search::Cause& c) {
     const auto largest = std::ranges::max_element(c.parameters, {}, in_prior_sigmas);
     return text + fmt::format(": {} and {} more", number_of(*largest), c.parameters.size() - 1);
   }
+  const bool all_less = c.parameters.size() > 1 &&
+                        std::ranges::all_of(c.parameters, &search::CauseParameter::less_mean);
   std::vector<std::string> numbers;
-  for (const search::CauseParameter& p : c.parameters) numbers.push_back(number_of(p));
+  for (const search::CauseParameter& p : c.parameters)
+    numbers.push_back(number_of(p, all_less ? Note::left_out : Note::said));
   text += fmt::format(": {}", fmt::join(numbers, ", "));
+  if (all_less) text += fmt::format(", each {}", less_the_mean);
   const search::CauseParameter& p = c.parameters.front();
   if (c.term == closure_term)  // between two equations the interval is the answer
     text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
@@ -100,6 +109,14 @@ std::string any_of_in_words(const search::CauseParameter& p) {
   std::vector<std::string> values;
   for (const double value : p.any_of) values.push_back(number_text(value));
   return listed(values, "or");
+}
+
+std::string note_in_words(const search::CauseParameter& p) {
+  return std::string(p.less_mean ? less_the_mean : "");
+}
+
+std::string note_in_words(const diagnosis::Profile& p) {
+  return std::string(p.less_mean ? less_the_mean : "");
 }
 
 std::string in_words(const search::Cause& c, Instrument instrument) {

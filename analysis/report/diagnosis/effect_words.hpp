@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/diagnosis/findings/profile.hpp"
 #include "analysis/report/diagnosis/instrument.hpp"
 #include "analysis/search/cause.hpp"
 
@@ -21,6 +22,11 @@ std::string in_words(std::string_view term, std::string_view axis,
 std::string in_words(const search::Cause& cause, Instrument instrument = Instrument::platform);
 /// "4, 8, 16 or 32": of a setting that the test does not tell, the values that it may have.
 std::string any_of_in_words(const search::CauseParameter& p);
+
+/// "less the mean of the three", as `identify` notes it: of a number without the common part that
+/// the test does not see. Empty of any other.
+std::string note_in_words(const search::CauseParameter& p);
+std::string note_in_words(const diagnosis::Profile& p);
 
 /// An equation (Where::equation) as a reader says it: "middle gimbal" of "gimbal middle".
 std::string equation_in_words(const std::string& equation);

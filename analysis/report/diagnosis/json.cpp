@@ -6,6 +6,7 @@
 #include "analysis/planning/position_toml.hpp"
 #include "analysis/report/diagnosis/advice_words.hpp"
 #include "analysis/report/diagnosis/doubts.hpp"
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/diagnosis/not_examined_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
@@ -67,7 +68,8 @@ Json causes_json(const std::vector<Cause>& causes) {
                             {"interval_95", {p.low(), p.high()}},
                             {"any_of", p.any_of},
                             {"profiled", p.profiled},
-                            {"prior_sigmas", p.prior_sigmas}});
+                            {"prior_sigmas", p.prior_sigmas},
+                            {"note", text_or_null(note_in_words(p))}});
     for (const Confusable& other : c.confusable_with)
       confusable.push_back(
           {{"term", other.term}, {"axis", text_or_null(other.axis)}, {"cosine", other.cosine}});

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/svg_canvas.hpp"
@@ -47,7 +48,8 @@ Series between_refits(const Profile& p) {
 Panel profile_panel(const Profile& p) {
   Panel panel;
   panel.title = fmt::format("{}: {}", p.label, p.key);
-  panel.x_label = p.unit == "1" ? p.key : fmt::format("{} [{}]", p.key, p.unit);
+  const std::string what = p.less_mean ? fmt::format("{} {}", p.key, note_in_words(p)) : p.key;
+  panel.x_label = p.unit == "1" ? what : fmt::format("{} [{}]", what, p.unit);
   panel.y_label = "loss, 2 log likelihood";
   Series parabola = curve("what its sigma says", 1, Stroke::dashed);
   const double low = p.value - 3.5 * p.sigma, high = p.value + 3.5 * p.sigma;
@@ -83,8 +85,9 @@ std::string profile_in_words(const Profile& p) {
   };
   const bool agrees = stats::normal_says(p.value, p.sigma, p.low_95, p.high_95);
   std::string said =
-      fmt::format("{} {}: {} to {}{} by refits, {} to {} by its sigma: {}.", p.label, p.key,
-                  number(p.low_95), number(p.high_95), unit_after(p), number(low), number(high),
+      fmt::format("{} {}{}: {} to {}{} by refits, {} to {} by its sigma: {}.", p.label, p.key,
+                  p.less_mean ? ", " + note_in_words(p) : "", number(p.low_95), number(p.high_95),
+                  unit_after(p), number(low), number(high),
                   agrees ? "they agree" : "take the interval by refits");
   if (p.param == closure_param)
     for (const Profile::Point& q : p.points)
@@ -105,6 +108,7 @@ Json profiles_json(const std::vector<Profile>& profiles) {
     all.push_back({{"cause", p.label},
                    {"key", p.key},
                    {"unit", p.unit},
+                   {"note", text_or_null(note_in_words(p))},
                    {"value", p.value},
                    {"sigma", p.sigma},
                    {"top", p.top},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
@@ -82,8 +83,9 @@ Blocks cause_figure(const Diagnosis& d) {
                              .after = size,
                              .low = size - 1.96,
                              .high = size + 1.96,
-                             .text = fmt::format("{}{}", with_sigma(p.value, p.sigma),
-                                                 p.unit == "1" ? "" : " " + p.unit)});
+                             .text = fmt::format("{}{}{}", with_sigma(p.value, p.sigma),
+                                                 p.unit == "1" ? "" : " " + p.unit,
+                                                 p.less_mean ? ", " + note_in_words(p) : "")});
     }
   if (chart.lines.empty()) return {};
   return {

@@ -59,6 +59,7 @@ std::string confusable_text(const Cause& c) {
 }
 
 Table cause_table(const Diagnosis& d) {
+  constexpr const char* marked = "*";  // what the note below the table is about
   Table table(d.verdict == Verdict::ambiguous ? "Causes that remain possible" : "Causes",
               "<term | <parameter | value | <unit | p | probability | size [prior sigmas] | "
               "<like (cosine)");
@@ -81,7 +82,10 @@ Table cause_table(const Diagnosis& d) {
     if (c.parameters.empty()) add(0, "", "", "");
     for (std::size_t k = 0; k < c.parameters.size(); ++k) {
       const CauseParameter& p = c.parameters[k];
-      add(k, p.key, p.any_of.empty() ? plus_minus(p.value, p.sigma) : Cell(any_of_in_words(p)),
+      const std::string note = note_in_words(p);
+      if (!note.empty()) table.note = fmt::format("{}: {}.", marked, note);
+      add(k, note.empty() ? p.key : p.key + marked,
+          p.any_of.empty() ? plus_minus(p.value, p.sigma) : Cell(any_of_in_words(p)),
           unit_cell(p.unit));
     }
   }

@@ -115,6 +115,10 @@ TEST(SensedDiagnosis, TheCommonDriftGoesOutOfIntervalsAndProfilesOfItsSetAlone) 
   EXPECT_NEAR(d.profiles[2].high_95, 32.0, 1e-12);
   EXPECT_EQ(d.causes[3].parameters[0].value, 7.0);
   EXPECT_EQ(d.profiles[3].top, 6.9);
+  for (std::size_t k = 0; k < 4; ++k) {  // and it is known of which numbers
+    EXPECT_EQ(d.causes[k].parameters[0].less_mean, k < 3) << k;
+    EXPECT_EQ(d.profiles[k].less_mean, k < 3) << k;
+  }
   EXPECT_NE(diagnosis::remark_in<diagnosis::remark::CommonDriftUnseen>(d), nullptr);
 }
 

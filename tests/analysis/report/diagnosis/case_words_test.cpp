@@ -1,7 +1,10 @@
 // What is said of gyros on a case, and of numbers that say nothing.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "analysis/diagnosis/asides.hpp"
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
@@ -61,6 +64,70 @@ TEST(CaseWords, ACauseOfManySizesIsATwinOnlyWhereAllOfItIs) {
   EXPECT_FALSE(says(report::sentence(d), "same trace")) << report::sentence(d);
   d.inseparable = {{{"accelerometer", "", ""}, {"accelerometer_cross", "z", ""}}};
   EXPECT_TRUE(says(report::sentence(d), "same trace")) << report::sentence(d);
+}
+
+/// Three drifts of which the test does not see the common part; a misalignment beside them.
+Diagnosis less_mean() {
+  Diagnosis d = of_case("gyro_misalignment", "", "xi_y");
+  search::Cause drift;
+  drift.term = "g_drift";
+  for (const char* key : {"D_I_x", "D_I_y", "D_I_z"}) {
+    drift.parameters.push_back(
+        {key, TermLibrary::find(key).value(), 150.0, 10.0, "deg/h/g", false});
+    drift.parameters.back().less_mean = true;
+  }
+  d.causes.push_back(drift);
+  return d;
+}
+
+TEST(LessTheMean, IsSaidWhereverSuchANumberStands) {
+  Diagnosis d = less_mean();
+  EXPECT_TRUE(says(report::sentence(d),
+                   "D_I_x = 150±10 deg/h/g, D_I_y = 150±10 deg/h/g, D_I_z = 150±10 deg/h/g, each "
+                   "less the mean of the three)"))
+      << report::sentence(d);
+  const std::string table = report::text_of({report::what(d)});
+  for (const char* text : {"D_I_x* ", "D_I_z* ", "*: less the mean of the three.", "xi_y  "})
+    EXPECT_TRUE(says(table, text)) << text << table;
+  const auto figures = report::cause_figure(d);
+  EXPECT_TRUE(says(std::get<report::Figure>(figures.at(0).content).svg,
+                   "150±10 deg/h/g, less the mean of the three"));
+  const report::Json causes = report::Json::parse(report::to_json(d))["causes"];
+  EXPECT_TRUE(causes[0]["parameters"][0]["note"].is_null());
+  EXPECT_EQ(causes[1]["parameters"][2]["note"], "less the mean of the three");
+  // By itself, and the largest of many.
+  search::Cause& drift = d.causes[1];
+  drift.parameters.resize(1);
+  EXPECT_TRUE(says(report::in_words(drift), "D_I_x = 150±10 deg/h/g less the mean of the three"))
+      << report::in_words(drift);
+  for (const char* key : {"D_O_x", "D_O_y", "D_O_z"})
+    drift.parameters.push_back({key, TermLibrary::find(key).value(), 0.1, 0.1, "deg/h/g", false});
+  EXPECT_TRUE(says(report::in_words(drift), "150±10 deg/h/g less the mean of the three"))
+      << report::in_words(drift);
+  EXPECT_TRUE(says(report::in_words(drift), " and 3 more")) << report::in_words(drift);
+}
+
+TEST(LessTheMean, IsNotSaidOfANumberThatIsWhole) {
+  Diagnosis d = less_mean();
+  for (search::CauseParameter& p : d.causes[1].parameters) p.less_mean = false;
+  EXPECT_FALSE(says(report::to_text(d) + report::to_json(d), "less the mean"));
+}
+
+TEST(LessTheMean, IsSaidOfAProfile) {
+  Diagnosis d;
+  diagnosis::Profile p{.label = "g_drift", .key = "D_I_x", .unit = "deg/h/g"};
+  p.value = p.top = 150.0;
+  p.sigma = 10.0;
+  for (const double x : {-3.0, -1.5, 0.0, 1.5, 3.0}) p.points.push_back({150.0 + 10.0 * x, x * x});
+  p.low_95 = 130.4;
+  p.high_95 = 169.6;
+  p.less_mean = true;
+  d.profiles = {p};
+  const report::Section section = report::profiles(d);
+  EXPECT_TRUE(says(std::get<report::Figure>(section.blocks[0].content).svg,
+                   "D_I_x less the mean of the three [deg/h/g]"));
+  EXPECT_TRUE(says(std::get<report::Sentences>(section.blocks[1].content).items[0],
+                   "D_I_x, less the mean of the three: 130 to 170 deg/h/g by refits"));
 }
 
 /// A candidate that leaves nothing, were it so many times its usual size.
