@@ -149,6 +149,7 @@ void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile
           continue;
         p.low_95 = profile.low_95;
         p.high_95 = profile.high_95;
+        p.top = profile.top;
         // Noise that drives the platform is not in the fit, and is in the refits: they are right.
         if (!(p.value < p.low_95) && !(p.value > p.high_95)) continue;
         p.value = profile.top;

@@ -33,6 +33,8 @@ struct CauseParameter {
   double high_95 = std::numeric_limits<double>::quiet_NaN();
   /// Of a discrete setting: all values that hold 95 % together, where these are several.
   std::vector<double> any_of = {};
+  /// Where the profile is most probable; NaN without one.
+  double top = std::numeric_limits<double>::quiet_NaN();
   bool less_mean = false;  ///< less the mean of the three axes, which the test does not see
 
   /// The 95 % interval: by refits where there is one, else by the sigma.
@@ -41,6 +43,11 @@ struct CauseParameter {
   bool sigma_says_it() const {
     const bool none = !std::isfinite(low_95) && !std::isfinite(high_95);
     return none || stats::normal_says(value, sigma, low_95, high_95);
+  }
+  /// The value to be told: the most probable one where refits say more than the sigma.
+  double told() const {
+    const bool within = top >= low_95 && top <= high_95;
+    return within && !sigma_says_it() ? top : value;
   }
   double low() const { return by_refits() ? low_95 : value - stats::half_width_95 * sigma; }
   double high() const { return by_refits() ? high_95 : value + stats::half_width_95 * sigma; }

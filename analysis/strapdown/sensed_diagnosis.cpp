@@ -41,6 +41,7 @@ void sense(CauseParameter& p, const Vec3& scales) {
   const SensedNumber taken(p.param, scales);
   p.sigma = taken.sigma(p.value, p.sigma);
   p.value = taken.value(p.value);
+  p.top = taken.value(p.top);
   taken.interval(p.low_95, p.high_95);
   for (double& v : p.any_of) v = taken.value(v);
   if (!taken.mirrored()) return;
@@ -83,7 +84,7 @@ Vec3 scales_with(const Diagnosis& d, Vec3 scales, int set) {
 }
 
 void take_out(CauseParameter& p, double mean) {
-  for (double* v : {&p.value, &p.low_95, &p.high_95}) *v -= mean;
+  for (double* v : {&p.value, &p.top, &p.low_95, &p.high_95}) *v -= mean;
   p.less_mean = true;
 }
 

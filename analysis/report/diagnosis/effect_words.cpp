@@ -36,28 +36,11 @@ double in_prior_sigmas(const search::CauseParameter& p) {
   return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
 }
 
-/// "0.056±0.011", or where refits found the interval to be another "0.056 (95 %: 0.037 to 0.22)";
-/// of a setting that is one of several values "4, 8, 16 or 32".
-std::string value_of(const search::CauseParameter& p) {
-  if (!p.any_of.empty()) return any_of_in_words(p);
-  // Of lambda, which is between two equations, the interval is told in any case.
-  if (p.param == closure_param || p.sigma_says_it()) return with_sigma(p.value, p.sigma);
-  const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
-  // As many decimals as the nearer end asks for, but not where that is the value itself.
-  double nearer = std::min(low ? std::abs(p.value - p.low_95) : HUGE_VAL,
-                           high ? std::abs(p.high_95 - p.value) : HUGE_VAL);
-  if (low && high) nearer = std::max(nearer, 0.1 * (p.high_95 - p.low_95));
-  const auto number = [&](double x) { return to_match(x, nearer / stats::half_width_95); };
-  return fmt::format("{} (95 %: {}{}{}{})", number(p.value),
-                     low ? (high ? "" : "at least ") : "at most ", low ? number(p.low_95) : "",
-                     low && high ? " to " : "", high ? number(p.high_95) : "");
-}
-
 /// What a number is relative to: said of each, or once behind all.
 enum class Note { said, left_out };
 
 std::string number_of(const search::CauseParameter& p, Note note = Note::said) {
-  std::string text = fmt::format("{} = {}{}{}", p.key, value_of(p), p.unit == "1" ? "" : " ",
+  std::string text = fmt::format("{} = {}{}{}", p.key, value_in_words(p), p.unit == "1" ? "" : " ",
                                  p.unit == "1" ? "" : p.unit);
   if (note == Note::said && p.less_mean) text += fmt::format(" {}", less_the_mean);
   if (const double size = in_prior_sigmas(p); size > unusual_size)
@@ -105,10 +88,24 @@ std::string in_words(std::string_view term, std::string_view axis, Instrument in
   return axis.empty() ? std::string(title) : fmt::format("{}, {}", title, part_of(info, axis));
 }
 
-std::string any_of_in_words(const search::CauseParameter& p) {
-  std::vector<std::string> values;
-  for (const double value : p.any_of) values.push_back(number_text(value));
-  return listed(values, "or");
+std::string value_in_words(const search::CauseParameter& p) {
+  if (!p.any_of.empty()) {
+    std::vector<std::string> values;
+    for (const double value : p.any_of) values.push_back(number_text(value));
+    return listed(values, "or");
+  }
+  // Of lambda, which is between two equations, the interval is told in any case.
+  if (p.param == closure_param || p.sigma_says_it()) return with_sigma(p.value, p.sigma);
+  const double value = p.told();
+  const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
+  // As many decimals as the nearer end asks for, but not where that is the value itself.
+  double nearer = std::min(low ? std::abs(value - p.low_95) : HUGE_VAL,
+                           high ? std::abs(p.high_95 - value) : HUGE_VAL);
+  if (low && high) nearer = std::max(nearer, 0.1 * (p.high_95 - p.low_95));
+  const auto number = [&](double x) { return to_match(x, nearer / stats::half_width_95); };
+  return fmt::format("{} (95 %: {}{}{}{})", number(value),
+                     low ? (high ? "" : "at least ") : "at most ", low ? number(p.low_95) : "",
+                     low && high ? " to " : "", high ? number(p.high_95) : "");
 }
 
 std::string note_in_words(const search::CauseParameter& p) {

@@ -20,8 +20,9 @@ std::string in_words(std::string_view term, std::string_view axis,
 /// largest in sigmas of its prior. A title that ends in brackets takes them in: "g-sensitive drift
 /// (mass unbalance; g_drift: ...)".
 std::string in_words(const search::Cause& cause, Instrument instrument = Instrument::platform);
-/// "4, 8, 16 or 32": of a setting that the test does not tell, the values that it may have.
-std::string any_of_in_words(const search::CauseParameter& p);
+/// "0.056±0.011", or where refits found the interval to be another "0.058 (95 %: 0.037 to 0.22)",
+/// with the most probable value; of a setting that is one of several values "4, 8, 16 or 32".
+std::string value_in_words(const search::CauseParameter& p);
 
 /// "less the mean of the three", as `identify` notes it: of a number without the common part that
 /// the test does not see. Empty of any other.

@@ -66,6 +66,7 @@ Json causes_json(const std::vector<Cause>& causes) {
                             {"sigma", p.sigma},
                             {"unit", p.unit},
                             {"interval_95", {p.low(), p.high()}},
+                            {"top", p.top},
                             {"any_of", p.any_of},
                             {"profiled", p.profiled},
                             {"prior_sigmas", p.prior_sigmas},

@@ -7,6 +7,7 @@
 #include "analysis/report/svg/dumbbell_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/zoomable.hpp"
+#include "core/physics/closure.hpp"
 
 namespace drift::report {
 namespace {
@@ -71,28 +72,35 @@ Blocks cause_figure(const Diagnosis& d) {
   chart.x_label = "distance from the nominal model [sigma]";
   chart.before_label = "nominal model";
   chart.after_label = "found, with its 95 % interval";
-  chart.text_label = "size ± 1 sigma";
+  chart.text_label = "size ± 1 sigma, or its 95 % interval";
+  bool settings = false;  // a value of theirs is no distance from a model without the effect
   for (const search::Cause& c : d.causes)
     for (const search::CauseParameter& p : c.parameters) {
-      if (!(p.sigma > 0.0) || !std::isfinite(p.value)) continue;
-      // Of lambda the nominal model has the value of its equation.
-      const double nominal = p.key == "lambda" && d.nominal.coupling == Coupling::eq6 ? 1.0 : 0.0;
-      const double size = (p.value - nominal) / p.sigma;
-      chart.lines.push_back({.label = fmt::format("{} {}", label_of(c), p.key),
-                             .before = 0.0,
-                             .after = size,
-                             .low = size - 1.96,
-                             .high = size + 1.96,
-                             .text = fmt::format("{}{}{}", with_sigma(p.value, p.sigma),
-                                                 p.unit == "1" ? "" : " " + p.unit,
-                                                 p.less_mean ? ", " + note_in_words(p) : "")});
+      settings = settings || TermLibrary::specs[p.param].setting();
+      if (TermLibrary::specs[p.param].setting() || !(p.sigma > 0.0) || !std::isfinite(p.value))
+        continue;
+      const auto distance = [&](double value) {
+        return (value - value_left_out(p.param, d.nominal.coupling)) / p.sigma;
+      };
+      chart.lines.push_back(
+          {.label = fmt::format("{} {}", label_of(c), p.key),
+           .before = 0.0,
+           .after = distance(p.told()),
+           .low = distance(p.low()),
+           .high = distance(p.high()),
+           .text = fmt::format("{}{}{}", value_in_words(p), p.unit == "1" ? "" : " " + p.unit,
+                               p.less_mean ? ", " + note_in_words(p) : "")});
     }
   if (chart.lines.empty()) return {};
-  return {
-      figure_of(std::move(chart),
-                "What is found of each parameter of a cause, in its own sigmas. An interval that "
-                "reaches the nominal model: this parameter alone is not needed.",
-                "causes.svg")};
+  return {figure_of(
+      std::move(chart),
+      fmt::format("What is found of each parameter of a cause, in its own sigmas, with the "
+                  "interval that refits found where there are some. An interval that reaches the "
+                  "nominal model: this parameter alone is not needed.{}",
+                  settings ? " Settings, such as a width or a time constant, are not shown: none "
+                             "of their values is that of a model without the effect."
+                           : ""),
+      "causes.svg")};
 }
 
 Section whiteness(const Diagnosis& d) {

@@ -84,9 +84,7 @@ Table cause_table(const Diagnosis& d) {
       const CauseParameter& p = c.parameters[k];
       const std::string note = note_in_words(p);
       if (!note.empty()) table.note = fmt::format("{}: {}.", marked, note);
-      add(k, note.empty() ? p.key : p.key + marked,
-          p.any_of.empty() ? plus_minus(p.value, p.sigma) : Cell(any_of_in_words(p)),
-          unit_cell(p.unit));
+      add(k, note.empty() ? p.key : p.key + marked, value_in_words(p), unit_cell(p.unit));
     }
   }
   return table;

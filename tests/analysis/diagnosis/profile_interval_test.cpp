@@ -120,6 +120,7 @@ TEST(Profiles, AValueThatItsRefitsDoNotHoldIsTheirTop) {
     return causes.front().parameters.front();
   };
   EXPECT_EQ(stated(5.9).value, 5.9);
+  EXPECT_EQ(stated(5.9).top, 6.15);
   EXPECT_EQ(stated(0.5).value, 6.15);
   EXPECT_NEAR(stated(0.5).prior_sigmas, 6.15 / 2.0, 1e-12);
   EXPECT_EQ(stated(7.5).value, 6.15);

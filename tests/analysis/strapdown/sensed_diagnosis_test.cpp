@@ -24,6 +24,7 @@ void add_cause(Diagnosis& d, std::string_view key, int set = 0, double value = 3
   p.prior_sigmas = 4.0;
   p.low_95 = value - 1.0;
   p.high_95 = value + 2.0;
+  p.top = value - 0.1;
   search::Cause cause;
   cause.term = key;
   cause.set = set;
@@ -54,6 +55,7 @@ void expect_one_story(const Diagnosis& d) {
     EXPECT_EQ(p.sigma, profile.sigma) << p.key;
     EXPECT_EQ(p.low_95, profile.low_95) << p.key;
     EXPECT_EQ(p.high_95, profile.high_95) << p.key;
+    EXPECT_EQ(p.top, profile.top) << p.key;
     EXPECT_TRUE(std::ranges::is_sorted(profile.points, {}, &Profile::Point::value)) << p.key;
     EXPECT_LT(profile.points.front().value, p.low_95) << p.key;
     EXPECT_LT(p.high_95, profile.points.back().value) << p.key;

@@ -98,6 +98,57 @@ TEST(Intervals, ASizeHasItsIntervalWhereItsSigmaSaysAnother) {
   expect(4.252, 4.2701, "W_x = 4.260 (95 %: 4.252 to 4.270) deg/h");
 }
 
+/// A size whose profile is skew, and a setting beside it.
+diagnosis::Diagnosis skew() {
+  diagnosis::Diagnosis d;
+  d.verdict = diagnosis::Verdict::named;
+  search::Cause cause;
+  cause.term = "warmup_drift";
+  cause.axis = "x";
+  cause.parameters = {{"W_x", TermLibrary::index("W_x"), 0.056, 0.011, "deg/h"},
+                      {"W_tau", TermLibrary::index("W_tau"), 40.0, 0.7, "min", true}};
+  cause.parameters[0].low_95 = 0.037;
+  cause.parameters[0].high_95 = 0.218;
+  cause.parameters[0].top = 0.08;
+  d.causes.push_back(cause);
+  return d;
+}
+
+TEST(Intervals, OfTheSentenceTheTableAndTheFigureAreOneWithTheMostProbableValue) {
+  diagnosis::Diagnosis d = skew();
+  constexpr const char* told = "0.080 (95 %: 0.037 to 0.218)";
+  EXPECT_NE(sentence(d).find(told), std::string::npos) << sentence(d);
+  const std::string table = text_of({what(d)});
+  EXPECT_NE(table.find(told), std::string::npos) << table;
+  const Blocks figure = cause_figure(d);
+  const std::string& svg = std::get<Figure>(figure.at(0).content).svg;
+  EXPECT_NE(svg.find(told), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">15<"), std::string::npos) << svg;  // sigmas; the interval reaches 19.8
+  const Json json = Json::parse(to_json(d))["causes"][0]["parameters"];
+  EXPECT_EQ(json[0]["value"], 0.056);
+  EXPECT_EQ(json[0]["top"], 0.08);
+  EXPECT_TRUE(json[1]["top"].is_null());
+  // Where the sigma says as much, and where the top lies outside: the value.
+  search::CauseParameter& size = d.causes[0].parameters[0];
+  EXPECT_EQ(size.told(), 0.08);
+  size.top = 0.3;
+  EXPECT_EQ(size.told(), 0.056);
+  size.top = 0.06;
+  size.low_95 = 0.035;
+  size.high_95 = 0.078;
+  EXPECT_EQ(size.told(), 0.056);
+}
+
+TEST(CauseFigure, LeavesSettingsOutAndSaysSo) {
+  diagnosis::Diagnosis d = skew();
+  Blocks figure = cause_figure(d);
+  EXPECT_EQ(std::get<Figure>(figure.at(0).content).svg.find("W_tau"), std::string::npos);
+  EXPECT_NE(std::get<Figure>(figure[0].content).caption.find("Settings"), std::string::npos);
+  d.causes[0].parameters.pop_back();
+  figure = cause_figure(d);
+  EXPECT_EQ(std::get<Figure>(figure.at(0).content).caption.find("Settings"), std::string::npos);
+}
+
 TEST(Causes, ASizeSaysWhatElseOfTheEffectItTakesAsZero) {
   const test::ScratchFolder folder;
   const mc::Study study = test::read_text(folder, "study.toml", test::nominal_study);
