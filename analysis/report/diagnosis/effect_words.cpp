@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "analysis/report/diagnosis/too_large.hpp"
 #include "core/base/number_text.hpp"
@@ -36,11 +37,41 @@ double in_prior_sigmas(const search::CauseParameter& p) {
   return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
 }
 
+/// Whether value and sigma are all there is to say. Of lambda an end that refits did not reach is
+/// taken by its sigma, too.
+bool told_by_sigma(const search::CauseParameter& p) {
+  return p.sigma_says_it() || (p.param == closure_param && !p.by_refits());
+}
+
+/// The sigma that a number has the digits of. Of an interval: as many decimals as its nearer end
+/// asks for, but not where that is the value itself.
+double sigma_of_digits(const search::CauseParameter& p) {
+  if (told_by_sigma(p)) return p.sigma;
+  const double value = p.told();
+  const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
+  double nearer = std::min(low ? std::abs(value - p.low_95) : HUGE_VAL,
+                           high ? std::abs(p.high_95 - value) : HUGE_VAL);
+  if (low && high) nearer = std::max(nearer, 0.1 * (p.high_95 - p.low_95));
+  return nearer / stats::half_width_95;
+}
+
+std::string end_of(const search::CauseParameter& p, double end) {
+  const double sigma = sigma_of_digits(p);
+  return p.param == closure_param ? lambda_in_words(end, sigma) : to_match(end, sigma);
+}
+
+/// The value as it stands before an interval that is told of it in any case.
+std::string value_alone(const search::CauseParameter& p) {
+  return told_by_sigma(p) ? with_sigma(p.value, p.sigma) : to_match(p.told(), sigma_of_digits(p));
+}
+
 /// What a number is relative to: said of each, or once behind all.
 enum class Note { said, left_out };
 
 std::string number_of(const search::CauseParameter& p, Note note = Note::said) {
-  std::string text = fmt::format("{} = {}{}{}", p.key, value_in_words(p), p.unit == "1" ? "" : " ",
+  // Of lambda, which is between two equations, the interval is told in any case.
+  const std::string value = p.param == closure_param ? value_alone(p) : value_in_words(p);
+  std::string text = fmt::format("{} = {}{}{}", p.key, value, p.unit == "1" ? "" : " ",
                                  p.unit == "1" ? "" : p.unit);
   if (note == Note::said && p.less_mean) text += fmt::format(" {}", less_the_mean);
   if (const double size = in_prior_sigmas(p); size > unusual_size)
@@ -65,8 +96,8 @@ std::string numbers_of(const search::Cause& c) {
   if (all_less) text += fmt::format(", each {}", less_the_mean);
   const search::CauseParameter& p = c.parameters.front();
   if (c.term == closure_term)  // between two equations the interval is the answer
-    text += fmt::format(", 95 % interval {:.3g} to {:.3g}, where eq. (5) is 0 and eq. (6) is 1",
-                        p.low(), p.high());
+    text += fmt::format(", 95 % interval {} to {}, where eq. (5) is 0 and eq. (6) is 1",
+                        end_of(p, p.low()), end_of(p, p.high()));
   return text;
 }
 
@@ -94,18 +125,24 @@ std::string value_in_words(const search::CauseParameter& p) {
     for (const double value : p.any_of) values.push_back(number_text(value));
     return listed(values, "or");
   }
-  // Of lambda, which is between two equations, the interval is told in any case.
-  if (p.param == closure_param || p.sigma_says_it()) return with_sigma(p.value, p.sigma);
-  const double value = p.told();
+  if (told_by_sigma(p)) return with_sigma(p.value, p.sigma);
   const bool low = std::isfinite(p.low_95), high = std::isfinite(p.high_95);
-  // As many decimals as the nearer end asks for, but not where that is the value itself.
-  double nearer = std::min(low ? std::abs(value - p.low_95) : HUGE_VAL,
-                           high ? std::abs(p.high_95 - value) : HUGE_VAL);
-  if (low && high) nearer = std::max(nearer, 0.1 * (p.high_95 - p.low_95));
-  const auto number = [&](double x) { return to_match(x, nearer / stats::half_width_95); };
-  return fmt::format("{} (95 %: {}{}{}{})", number(value),
-                     low ? (high ? "" : "at least ") : "at most ", low ? number(p.low_95) : "",
-                     low && high ? " to " : "", high ? number(p.high_95) : "");
+  return fmt::format("{} (95 %: {}{}{}{})", to_match(p.told(), sigma_of_digits(p)),
+                     low ? (high ? "" : "at least ") : "at most ", low ? end_of(p, p.low_95) : "",
+                     low && high ? " to " : "", high ? end_of(p, p.high_95) : "");
+}
+
+std::string lambda_in_words(double lambda, double sigma) {
+  constexpr int most_decimals = 9;  // closer it is the equation
+  const std::string text = to_match(lambda, sigma);
+  const auto point = text.find('.');
+  auto decimals = static_cast<int>(point == std::string::npos ? 0 : text.size() - point - 1);
+  for (const double equation : {0.0, 1.0})
+    for (; decimals <= most_decimals; ++decimals) {
+      const std::string finer = decimal_text(lambda, decimals);
+      if (lambda == equation || std::strtod(finer.c_str(), nullptr) != equation) break;
+    }
+  return decimals > most_decimals ? text : decimal_text(lambda, decimals);
 }
 
 std::string note_in_words(const search::CauseParameter& p) {

@@ -24,6 +24,10 @@ std::string in_words(const search::Cause& cause, Instrument instrument = Instrum
 /// with the most probable value; of a setting that is one of several values "4, 8, 16 or 32".
 std::string value_in_words(const search::CauseParameter& p);
 
+/// A number of lambda with the decimals of a sigma, and more where it would read as 0 or 1, which
+/// are equations, and is not: "1.00004".
+std::string lambda_in_words(double lambda, double sigma);
+
 /// "less the mean of the three", as `identify` notes it: of a number without the common part that
 /// the test does not see. Empty of any other.
 std::string note_in_words(const search::CauseParameter& p);

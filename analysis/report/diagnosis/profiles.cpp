@@ -81,7 +81,9 @@ std::string unit_after(const Profile& p) {
 std::string profile_in_words(const Profile& p) {
   const double half = stats::half_width_95 * p.sigma, low = p.value - half, high = p.value + half;
   const auto number = [&](double v) {
-    return std::isfinite(v) ? to_match(v, 0.5 * p.sigma) : std::string("beyond the refits");
+    if (!std::isfinite(v)) return std::string("beyond the refits");
+    return p.param == closure_param ? lambda_in_words(v, 0.5 * p.sigma)
+                                    : to_match(v, 0.5 * p.sigma);
   };
   const bool agrees = stats::normal_says(p.value, p.sigma, p.low_95, p.high_95);
   std::string said =

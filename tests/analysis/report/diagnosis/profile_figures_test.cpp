@@ -3,9 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "core/physics/closure.hpp"
 #include "core/stats/normal.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 #include "tests/analysis/report/figures_of.hpp"
@@ -54,13 +56,13 @@ TEST(Intervals, OfTheSentenceAndOfTheJsonAreOne) {
   cause.term = "frame_closure";
   search::CauseParameter lambda;
   lambda.key = "lambda";
+  lambda.param = closure_param;
   lambda.unit = "1";
   lambda.value = 0.2;
   lambda.sigma = 0.05;
   cause.parameters.push_back(lambda);
   d.causes.push_back(cause);
-  const auto expect = [&](double low, double high) {
-    const std::string text = fmt::format("95 % interval {:.3g} to {:.3g}", low, high);
+  const auto expect = [&](double low, double high, const std::string& text) {
     EXPECT_NE(sentence(d).find(text), std::string::npos) << sentence(d);
     const Json json = Json::parse(to_json(d))["causes"][0]["parameters"][0]["interval_95"];
     EXPECT_DOUBLE_EQ(json[0], low);
@@ -68,10 +70,38 @@ TEST(Intervals, OfTheSentenceAndOfTheJsonAreOne) {
   };
   const double half = 0.05 * stats::half_width_95;
   search::CauseParameter& told = d.causes.front().parameters.front();
-  told.low_95 = 0.125;  // by refits, which did not go far enough above: ends of one kind alone
-  expect(0.2 - half, 0.2 + half);
+  told.low_95 = 0.126;  // by refits, which did not go far enough above: ends of one kind alone
+  expect(0.2 - half, 0.2 + half, "lambda = 0.20±0.05, 95 % interval 0.10 to 0.30, where");
   told.high_95 = 0.31;
-  expect(0.125, 0.31);
+  expect(0.126, 0.31, "lambda = 0.20, 95 % interval 0.13 to 0.31, where");
+}
+
+TEST(Intervals, OfLambdaNoEndReadsAsAnEquationThatItIsNot) {
+  const auto said = [](double value, double sigma, double low, double high, double top) {
+    search::Cause cause;
+    cause.term = "frame_closure";
+    cause.parameters = {{"lambda", closure_param, value, sigma, "1"}};
+    search::CauseParameter& p = cause.parameters[0];
+    p.low_95 = low;
+    p.high_95 = high;
+    p.top = top;
+    return lacking({cause});
+  };
+  const auto expect = [](const std::string& text, std::string_view part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  expect(said(0.93966, 0.033716, 0.870265, 1.0000385, 0.93319),
+         "lambda = 0.940±0.034, 95 % interval 0.870 to 1.00004, where eq. (5) is 0");
+  expect(said(1.002, 0.006, 0.991, 1.014, 1.002),
+         "lambda = 1.002±0.006, 95 % interval 0.991 to 1.014, where");
+  // Of a sigma whose lower end lies outside the interval nothing is said.
+  expect(said(-0.16893, 0.22962, -0.366868, 0.235982, -0.034094),
+         "lambda = -0.03, 95 % interval -0.37 to 0.24, where");
+  EXPECT_EQ(lambda_in_words(1.0, 0.034), "1.000");
+  EXPECT_EQ(lambda_in_words(0.99996, 0.034), "0.99996");
+  EXPECT_EQ(lambda_in_words(-0.0004, 0.05), "-0.0004");
+  EXPECT_EQ(lambda_in_words(1.0 + 1e-13, 0.05), "1.00");
+  EXPECT_EQ(lambda_in_words(12.3, 5.0), "12");
 }
 
 TEST(Intervals, ASizeHasItsIntervalWhereItsSigmaSaysAnother) {

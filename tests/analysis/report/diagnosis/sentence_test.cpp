@@ -85,7 +85,7 @@ TEST(Sentence, OfTheEquationHasTheIntervalAndNamesWhatElseIsMissing) {
                                             cause("sag", "x", "C_sag_x", 7.0, 0.5, "arcsec/g")});
   EXPECT_TRUE(report::sentence(d).starts_with(
       "The nominal model has the wrong drift equation (frame_closure: lambda = -0.17±0.23, 95 % "
-      "interval -0.621 to 0.281, where eq. (5) is 0 and eq. (6) is 1) and lacks compliance of "
+      "interval -0.62 to 0.28, where eq. (5) is 0 and eq. (6) is 1) and lacks compliance of "
       "the accelerometer block, accelerometer x (sag.x: C_sag_x = 7.0±0.5 arcsec/g); with them,"))
       << report::sentence(d);
 }
