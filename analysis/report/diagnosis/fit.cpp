@@ -165,7 +165,8 @@ Blocks residual_figure(const Diagnosis& d) {
         panel.expected.push_back({"located window",
                                   {w.start_s / axis.unit, w.end_s / axis.unit},
                                   {panel.y_range->low, panel.y_range->low},
-                                  {panel.y_range->high, panel.y_range->high}});
+                                  {panel.y_range->high, panel.y_range->high},
+                                  Shade::located});
       }
     chart.panels.back().series.front().label = label;
     chart.panels.back().series.front().colour = colour;

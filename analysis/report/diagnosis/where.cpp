@@ -67,8 +67,11 @@ std::vector<ExpectedBand> located(const Where& where, const RecoveredSignal& s, 
   std::vector<ExpectedBand> bands;
   for (const ScanHit& w : where.windows)
     if (w.equation == s.equation && bands.size() < most)
-      bands.push_back(
-          {"located window", {w.start_s / unit, w.end_s / unit}, {low, low}, {high, high}});
+      bands.push_back({"located window",
+                       {w.start_s / unit, w.end_s / unit},
+                       {low, low},
+                       {high, high},
+                       Shade::located});
   return bands;
 }
 

@@ -31,14 +31,16 @@
   function backdrop(panel) {
     return (context, area, graph) => {
       context.save();
-      context.fillStyle = 'rgba(127, 127, 127, 0.16)';
+      context.globalAlpha = 0.16;
       for (const band of panel.bands) {
+        context.fillStyle = band.colour;
         context.beginPath();
         band.x.forEach((x, i) => context.lineTo(graph.toDomXCoord(x), graph.toDomYCoord(band.low[i])));
         for (let i = band.x.length; i-- > 0;)
           context.lineTo(graph.toDomXCoord(band.x[i]), graph.toDomYCoord(band.high[i]));
         context.fill();
       }
+      context.globalAlpha = 1;
       context.strokeStyle = '#555';
       const line = (dash, x1, y1, x2, y2) => {
         context.setLineDash(dash);

@@ -13,7 +13,7 @@ namespace {
 // Around the axes of a panel [px].
 constexpr double left = 70.0, right = 14.0, top = 32.0, bottom = 48.0;
 constexpr double legend_line = 20.0;
-constexpr std::string_view expected_fill = "#7F7F7F", reference_colour = "#222222";
+constexpr std::string_view reference_colour = "#222222";
 
 /// Draws one panel; its outer rectangle is given [px].
 class PanelPainter {
@@ -57,7 +57,7 @@ class PanelPainter {
     const bool empty = panel_.series.empty() && panel_.expected.empty();
     canvas_.push_window(x0_, y0_, w_, h_);
     if (!empty) {
-      for (const auto& b : panel_.expected) area(b.x, b.low, b.high, expected_fill, 0.16);
+      for (const auto& b : panel_.expected) area(b.x, b.low, b.high, fill_of(b.shade), 0.16);
       for (const double x : panel_.marks)
         canvas_.line(x_of(x), 0.0, x_of(x), h_, "#8a8a8a", 1.0, Stroke::dotted);
       for (const auto& s : panel_.series) sigma_band(s);
@@ -177,7 +177,7 @@ std::vector<LegendEntry> legend_of(const Chart& chart) {
   for (const auto& p : chart.panels)
     for (const auto& r : p.references) add({r.label, reference_colour, r.stroke, false});
   for (const auto& p : chart.panels)
-    for (const auto& b : p.expected) add({b.label, expected_fill, Stroke::solid, true});
+    for (const auto& b : p.expected) add({b.label, fill_of(b.shade), Stroke::solid, true});
   return entries;
 }
 
@@ -204,6 +204,10 @@ double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, 
 }
 
 }  // namespace
+
+std::string_view fill_of(Shade shade) {
+  return shade == Shade::located ? "#E69F00" : "#7F7F7F";
+}
 
 ChartParts parts_of(const Chart& chart) {
   const auto legend = legend_of(chart);

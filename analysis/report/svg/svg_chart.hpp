@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/report/svg/axis_scale.hpp"
@@ -23,10 +24,18 @@ struct Series {
   Drawn drawn = Drawn::curve;
 };
 
-/// An area that values should lie in.
+/// What an area says of what lies in it, and the colour that says so.
+enum class Shade {
+  expected,  ///< values should lie here
+  located,   ///< something is here
+};
+std::string_view fill_of(Shade shade);
+
+/// An area behind the curves.
 struct ExpectedBand {
   std::string label;
   std::vector<double> x, low, high;
+  Shade shade = Shade::expected;
 };
 
 /// A horizontal line, named in the legend: at the line, curves that end there would cross its name.

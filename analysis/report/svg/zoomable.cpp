@@ -74,9 +74,9 @@ std::string series_numbers(const Panel& panel) {
 std::string panel_numbers(const Panel& panel) {
   std::string bands;
   for (const ExpectedBand& b : panel.expected)
-    bands += fmt::format("{}{{\"x\":{},\"low\":{},\"high\":{}}}", bands.empty() ? "" : ",",
-                         all_numbers(b.x, x_digits), all_numbers(b.low, y_digits),
-                         all_numbers(b.high, y_digits));
+    bands += fmt::format("{}{{\"colour\":\"{}\",\"x\":{},\"low\":{},\"high\":{}}}",
+                         bands.empty() ? "" : ",", fill_of(b.shade), all_numbers(b.x, x_digits),
+                         all_numbers(b.low, y_digits), all_numbers(b.high, y_digits));
   std::vector<double> lines;
   for (const ReferenceLine& r : panel.references) lines.push_back(r.y);
   const std::string range =

@@ -70,6 +70,17 @@ TEST(SvgChart, IsWellFormedWithEveryKindOfContent) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
+TEST(SvgChart, WhatIsLocatedHasAnotherColourThanWhatIsExpected) {
+  EXPECT_NE(report::fill_of(report::Shade::located), report::fill_of(report::Shade::expected));
+  report::Chart chart = chart_of({1.0, 3.0, 2.0});
+  std::vector<report::ExpectedBand>& bands = chart.panels[0].expected;
+  bands.push_back({"2 sigma", {0.0, 2.0}, {0.5, 0.6}, {1.5, 1.4}});
+  bands.push_back({"located window", {0.5, 1.0}, {0.0, 0.0}, {3.0, 3.0}, report::Shade::located});
+  const std::string svg = report::svg_of(chart);
+  for (const report::ExpectedBand& b : bands)  // the area and its entry in the legend
+    EXPECT_EQ(count(svg, std::string(report::fill_of(b.shade))), 2u) << b.label;
+}
+
 TEST(SvgChart, EscapesHostileText) {
   report::Chart chart = chart_of({1.0, 2.0});
   const std::string hostile = "<script>alert(\"1\")</script>' & \x01\xff]]>";

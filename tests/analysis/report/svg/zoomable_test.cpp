@@ -63,6 +63,7 @@ TEST(Zoomable, NumbersAreThoseOfTheCurveThinnedWithItsExtremesAndGaps) {
   EXPECT_EQ(gaps, 1);
   EXPECT_EQ(most, 7.25);
   EXPECT_EQ(json[0]["bands"][0]["high"][1], 1.0);
+  EXPECT_EQ(json[0]["bands"][0]["colour"], fill_of(Shade::expected));
   EXPECT_EQ(json[0]["marks"][0], 30.0);
   EXPECT_TRUE(json[0]["range"].is_null());
 }
