@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "core/base/number_text.hpp"
 
@@ -9,6 +10,7 @@ namespace drift::report {
 using namespace diagnosis;
 
 Section odds(const Diagnosis& d) {
+  using inference::PosteriorPrior;
   constexpr double least_shown = 0.02;
   const Probabilities& p = d.probabilities;
   if (!p.known()) return {};
@@ -33,8 +35,11 @@ Section odds(const Diagnosis& d) {
     add(fmt::format("another effect of the library, each below {}", least_shown), others);
   add("something that no term of the library describes", p.outside);
   return {"What the recording may be",
-          {table, Paragraph{"By the marginal likelihood of each and a prior that is stated in "
-                            "diagnose.md; they sum to 1."}}};
+          {table, Paragraph{fmt::format(
+                      "By the marginal likelihood of each and a prior that is the same for all "
+                      "recordings: nothing missing {}, an effect of the library {}, something else "
+                      "{} (more of it in the documents, analysis/docs/diagnose.md); they sum to 1.",
+                      PosteriorPrior::nothing, PosteriorPrior::library, PosteriorPrior::outside)}}};
 }
 
 }  // namespace drift::report

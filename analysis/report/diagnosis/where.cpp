@@ -118,11 +118,15 @@ Blocks signal_figure(const Diagnosis& d) {
   if (chart.panels.empty()) return {};
   const bool shaded =
       std::ranges::any_of(chart.panels, [](const Panel& panel) { return !panel.expected.empty(); });
+  const bool with_cause =
+      std::ranges::any_of(chart.panels, [](const Panel& panel) { return panel.series.size() > 1; });
   return {zoomable(
       chart,
-      fmt::format("The input that would explain the misfit, as a time series{}. The signature of "
-                  "the cause is what the fitted parameters cannot absorb.",
-                  shaded ? "; grey: the located window" : ""),
+      fmt::format("The input that would explain the misfit, as a time series{}.{}",
+                  shaded ? "; shaded: the located window" : "",
+                  with_cause ? " The signature of the cause is what the fitted parameters cannot "
+                               "absorb."
+                             : ""),
       "signal.svg")};
 }
 

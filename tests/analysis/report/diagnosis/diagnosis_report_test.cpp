@@ -4,6 +4,7 @@
 
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/svg/svg_chart.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/own_script.hpp"
@@ -159,6 +160,33 @@ TEST(DiagnosisFigures, TheLocatedWindowAndTheGapOfTheRecoveredSignalAreSeen) {
   ASSERT_NE(signal, figures.end());
   EXPECT_NE(signal->svg.find("located window"), std::string::npos);
   EXPECT_NE(signal->svg.find("signature of the cause"), std::string::npos);
+  const auto residuals = std::ranges::find(figures, "residuals.svg", &report::Figure::file);
+  ASSERT_NE(residuals, figures.end());
+  for (const report::Shade shade : {report::Shade::expected, report::Shade::located})
+    EXPECT_NE(residuals->svg.find(report::fill_of(shade)), std::string::npos);
+}
+
+TEST(DiagnosisFigures, TheSignatureOfACauseIsSpokenOfWhereOneIsDrawn) {
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
+  const auto caption = [&] {
+    for (const report::Figure& f : all_figures(d))
+      if (f.file == "signal.svg") return f.caption;
+    return std::string();
+  };
+  EXPECT_NE(caption().find("The signature of the cause is"), std::string::npos) << caption();
+  for (diagnosis::RecoveredSignal& s : d.signals) s.explained.clear();
+  EXPECT_NE(caption().find("The input that would explain"), std::string::npos) << caption();
+  EXPECT_EQ(caption().find("signature"), std::string::npos) << caption();
+}
+
+TEST(DiagnosisPage, SaysThePriorOfWhatTheRecordingMayBe) {
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
+  d.probabilities.consistent = 0.75;
+  d.probabilities.outside = 0.25;
+  const std::string said = report::text_of({report::odds(d)}, 400);
+  EXPECT_NE(said.find("nothing missing 0.5, an effect of the library 0.45, something else 0.05"),
+            std::string::npos)
+      << said;
 }
 
 /// Two that cancel were found as a pair, beside a single alternative: each of the pair looks weak
