@@ -37,19 +37,20 @@ std::string start_text(const StudyResults& results) {
                 : "Filters started at the prior mean (start 1)";
 }
 
-/// Truth x filter: consistency, health, silent failures, the worst parameter.
-Table crossed_table(const StudyResults& results) {
+/// Truth x filter: consistency, health, silent failures, the worst parameter. starts: where the
+/// other starts stand.
+Table crossed_table(const StudyResults& results, std::string_view starts) {
   Table table(
       "Truth against filter",
       "<truth | <filter | runs | NIS/dof | NEES/dof | cover 2s % | healthy % | wrong % | "
       "silent failures | worst: RMSE/sigma",
-      fmt::format("{1}; other starts: report. NIS, NEES "
+      fmt::format("{1}; other starts: {2}. NIS, NEES "
                   "per degree of freedom: 1 for an honest filter; NEES over the directions it "
                   "learned (sigma below {0} of the prior's). Healthy: NIS inside its 95 % band. "
                   "Wrong: some parameter whose sigma is below {0} of its prior is more than 5 "
                   "sigma off, or the filter diverged. Silent: wrong and healthy, 95 % interval "
                   "(Wilson). RMSE/sigma and coverage: of parameters with such sigmas.",
-                  claims_of(results), start_text(results)));
+                  claims_of(results), start_text(results), starts));
   std::string condition = "-";
   for (const Pair& pair : pairs_of(results)) {
     const mc::StudyPoint& point = results.points[pair.point];
@@ -115,9 +116,11 @@ Table start_table(const StudyResults& results) {
 }  // namespace
 
 Section crossed(const StudyResults& results) {
-  return {
-      "Truth against filter",
-      {crossed_table(results), silent_failure_figure(results), {start_table(results), On::page}}};
+  return {"Truth against filter",
+          {{crossed_table(results, "report"), On::terminal},
+           {crossed_table(results, "see Starts below"), On::page},
+           silent_failure_figure(results),
+           {start_table(results), On::page}}};
 }
 
 }  // namespace drift::report

@@ -9,7 +9,7 @@ namespace {
 
 using namespace drift::test;
 
-std::string said(const mc::Overrides& overrides) {
+report::Section crossed(const mc::Overrides& overrides) {
   report::StudyResults results;
   results.study = read_text(small_study, overrides);
   results.points = mc::study_points(results.study);
@@ -17,7 +17,11 @@ std::string said(const mc::Overrides& overrides) {
   const auto worker = task.worker();
   results.statistics.emplace_back(task.study());
   results.statistics.back().add(run_block(task, *worker, 0, 2));
-  return std::get<report::Table>(report::crossed(results).blocks[0].content).note;
+  return report::crossed(results);
+}
+
+std::string said(const mc::Overrides& overrides) {
+  return std::get<report::Table>(crossed(overrides).blocks[0].content).note;
 }
 
 bool begins(const std::string& text, std::string_view with) {
@@ -32,6 +36,18 @@ TEST(StartWords, ThePriorMeanIsSaidWhereItIsSo) {
       begins, said({{"filter.wrong.starts", "[{ D_F_x = \"0.5 deg/h\" }]"}}),
       "Filters started at the first of filter.starts, the prior mean where it says nothing "
       "(start 1); other starts");
+}
+
+TEST(StartWords, ThePageDoesNotSendItsReaderToTheReport) {
+  for (const report::Block& block : crossed({}).blocks)
+    if (const auto* table = std::get_if<report::Table>(&block.content);
+        table != nullptr && table->title == "Truth against filter") {
+      ASSERT_NE(block.on, report::On::both);
+      const std::string_view where = block.on == report::On::page
+                                         ? "other starts: see Starts below."
+                                         : "other starts: report.";
+      EXPECT_NE(table->note.find(where), std::string::npos) << table->note;
+    }
 }
 
 }  // namespace
