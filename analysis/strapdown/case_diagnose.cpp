@@ -45,8 +45,7 @@ void rename(Diagnosis& d) {
 }
 
 /// What held-out dwells and turns are missed by, without and with the causes.
-std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIdentification& id,
-                                              double gravity) {
+std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIdentification& id) {
   const CaseScores& before = id.fits.front();
   if (before.gravity.count == 0) return {};
   CaseScores after = before;
@@ -60,8 +59,8 @@ std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIden
     all.push_back({"gyro rate in dwells", "deg/h", before.gyro.held_out, after.gyro.held_out});
   if (before.up.count > 0)
     all.push_back({"up after a turn", "deg", before.up.held_out, after.up.held_out});
-  all.push_back({"gravity in dwells", "m/s^2", before.gravity.held_out * gravity,
-                 after.gravity.held_out * gravity});
+  all.push_back({"gravity in dwells", "ug", before.gravity.held_out / unit::ug.to_si,
+                 after.gravity.held_out / unit::ug.to_si});
   return all;
 }
 
@@ -98,7 +97,7 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
   Diagnosis d =
       diagnosis::diagnose(case_filter(nominal, id.study), id.study.measured(), {}, {}, as_asked);
   d.of_case = true;
-  d.errors = errors_of(d, id, study.site.gravity);
+  d.errors = errors_of(d, id);
   rename(d);
   sense(d, id.fits.front().fit.estimate);
   if (!id.study.compass.sees_earth) take_common_drift_out(d);

@@ -243,7 +243,8 @@ std::string errors_text(const diagnosis::Diagnosis& d) {
   if (d.errors.empty() || !d.has_patch) return "";
   std::vector<std::string> numbers;
   for (const diagnosis::ErrorOfKind& k : d.errors)
-    numbers.push_back(fmt::format("{} {:.3g} → {:.3g} {}", k.what, k.before, k.after, k.unit));
+    numbers.push_back(
+        fmt::format("{} {} → {} {}", k.what, number_text(k.before), number_text(k.after), k.unit));
   return fmt::format(" Error on held-out data: {}.", fmt::join(numbers, ", "));
 }
 

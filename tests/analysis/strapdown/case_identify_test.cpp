@@ -140,6 +140,7 @@ TEST(CaseDiagnose, NamesLeverArmsAndDelayOfPsins) {
   ASSERT_NE(up, d.errors.end());
   EXPECT_LT(up->after, 0.0004);
   EXPECT_GT(up->before, 0.002);
+  EXPECT_EQ(d.errors.back().unit, "ug");  // as `identify` has it
 }
 
 /// The same of a unit of our own, and nothing where nothing is left out.

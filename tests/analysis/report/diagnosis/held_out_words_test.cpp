@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words.hpp"
 
 namespace drift::held_out_words_test {
 namespace {
@@ -28,6 +29,16 @@ TEST(HeldOutWords, OfHeldOutErrorsThatGrowItDoesNotSayThatTheyAreBetter) {
   EXPECT_TRUE(says(d, "are predicted better by their score (log score +12.8±7.2"))
       << report::sentence(d);
   EXPECT_TRUE(says(d, "not all errors become smaller (chance")) << report::sentence(d);
+}
+
+TEST(HeldOutWords, ErrorsHaveThreeDigitsAndNoPowersOfTen) {
+  Diagnosis d;
+  d.has_patch = true;
+  d.errors = {{"gyro rate in dwells", "deg/h", 162.04, 34.71},
+              {"gravity in dwells", "ug", 1094, 47}};
+  EXPECT_EQ(report::errors_text(d),
+            " Error on held-out data: gyro rate in dwells 162 → 34.7 deg/h, gravity in dwells 1094 "
+            "→ 47 ug.");
 }
 
 TEST(HeldOutWords, OfAMisfitWithoutANameItSaysHowBadItIs) {
