@@ -143,7 +143,7 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     else if (const auto* period = remark_in<remark::PeriodExplains>(d);
              period && !period->beside_cause)
       add(Weight::note, "Period", in_words(Remark(*period), instrument_of(d)));
-    add(Weight::note, "Where", where_sentence(d.where));
+    add(Weight::note, "Where", where_sentence(d.where, time_unit(d)));
     add(Weight::note, "Held out", held_out_sentence(d.fit.held_out));
   }
   bool off_zero = false;

@@ -85,7 +85,7 @@ std::string patched_file(const mc::Study& study, const Diagnosis& d) {
 Section verdict(const Diagnosis& d) {
   const bool found = d.verdict != Verdict::consistent && !d.wrong_study();
   Sentences said{{headline(d)}, ""};
-  if (const auto sentence = where_sentence(d.where); found && !sentence.empty())
+  if (const auto sentence = where_sentence(d.where, time_unit(d)); found && !sentence.empty())
     said.items.push_back("Where: " + sentence);
   if (const auto sentence = held_out_sentence(d.fit.held_out); found && !sentence.empty())
     said.items.push_back("Held out: " + sentence);
@@ -153,7 +153,8 @@ Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const Diagno
   if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d)) report.headlines.push_back(sentence);
   if (d.verdict != Verdict::consistent && !d.wrong_study())
-    for (const auto& sentence : {where_sentence(d.where), held_out_sentence(d.fit.held_out)})
+    for (const auto& sentence :
+         {where_sentence(d.where, time_unit(d)), held_out_sentence(d.fit.held_out)})
       if (!sentence.empty()) report.headlines.push_back(sentence);
   if (d.proposal) report.headlines.push_back(form_sentence(*d.proposal));
   if (!d.advice.empty()) report.headlines.push_back(advice_text(d.advice.front()));

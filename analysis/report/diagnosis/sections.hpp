@@ -34,7 +34,7 @@ Blocks cause_figure(const diagnosis::Diagnosis& diagnosis);
 Table candidate_table(const diagnosis::Diagnosis& diagnosis);
 Table moved_table(const diagnosis::Diagnosis& diagnosis);
 Table noise_table(const diagnosis::Diagnosis& diagnosis);
-Table window_table(const diagnosis::Where& where);
+Table window_table(const diagnosis::Where& where, TimeUnit axes = TimeUnit::seconds);
 
 /// residual_signal.csv: the recovered inputs, row by row, with facts in comment lines: what is not
 /// finite or not known is an empty cell, `explained` where no cause is named. Of several
@@ -43,7 +43,6 @@ Table window_table(const diagnosis::Where& where);
 std::string residual_signal_csv(const std::vector<diagnosis::RecoveredSignal>& signals,
                                 const std::vector<diagnosis::RecordingSpan>& recordings = {});
 
-/// Short recordings are shown in seconds, long ones in hours.
 struct TimeAxis {
   double unit = 3600.0;  ///< [s]
   std::string label;

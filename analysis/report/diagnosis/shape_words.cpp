@@ -59,10 +59,12 @@ std::string bare(const diagnosis::Shape& s, const std::vector<RecordingSpan>& re
 
 }  // namespace
 
-std::string onset_text(double t, const std::vector<RecordingSpan>& recordings) {
+std::string onset_text(double t, const std::vector<RecordingSpan>& recordings, TimeUnit axes) {
   std::size_t k = recordings.size();
   while (k > 0 && t < recordings[k - 1].start_s) --k;
-  if (k == 0) return fmt::format("sets in at {:.0f} s and stays", t);
+  if (k == 0)
+    return fmt::format("sets in at {:.0f} s{} and stays", t,
+                       axes == TimeUnit::hours ? fmt::format(" ({:.2f} h)", t / 3600.0) : "");
   const RecordingSpan& r = recordings[k - 1];
   if (k == 1 || t > r.start_s)
     return fmt::format("sets in at {:.0f} s of {} and stays", t - r.offset_s, r.name);

@@ -132,26 +132,40 @@ Blocks signal_figure(const Diagnosis& d) {
 
 }  // namespace
 
+TimeUnit time_unit(const std::vector<double>& t) {
+  return t.empty() || t.back() - t.front() > 7200.0 ? TimeUnit::hours : TimeUnit::seconds;
+}
+
+TimeUnit time_unit(const Diagnosis& d) {
+  if (!d.fit.residual_t.empty()) return time_unit(d.fit.residual_t);
+  return d.signals.empty() ? TimeUnit::seconds : time_unit(d.signals.front().t);
+}
+
 TimeAxis time_axis(const std::vector<double>& t, const Where& where) {
-  const bool in_hours = t.empty() || t.back() - t.front() > 7200.0;
+  const bool in_hours = time_unit(t) == TimeUnit::hours;
   return {in_hours ? 3600.0 : 1.0,
           fmt::format("time{} [{}]", where.recordings.empty() ? "" : " through all recordings",
                       in_hours ? "h" : "s")};
 }
 
-Table window_table(const Where& where) {
+Table window_table(const Where& where, TimeUnit axes) {
+  const bool in_hours = axes == TimeUnit::hours;  // to people; machines read seconds
   Table table("Located windows",
-              "equation=<equation | position=position | start_s=from [s] | end_s=to [s] | "
-              "score=score | p_value=p");
+              fmt::format("equation=<equation | position=position | start_s=from [{0}] | "
+                          "end_s=to [{0}] | score=score | p_value=p",
+                          in_hours ? "h" : "s"));
   if (!where.recordings.empty())
     table.add_columns(
         "recording=<recording | start_in_recording_s= | end_in_recording_s= | <there [s]");
   table.limit = {.page = 12, .rest_in = "diagnosis.json"};
+  const auto time = [&](double s) {
+    return in_hours ? Cell(s, decimal_text(s / 3600.0, 3)) : decimals(s, 0);
+  };
   for (const ScanHit& w : where.windows) {
     std::vector<Cell> cells{w.equation,
                             Cell(w.position, w.position > 0 ? fmt::format("{}", w.position) : ""),
-                            decimals(w.start_s, 0),
-                            decimals(w.end_s, 0),
+                            time(w.start_s),
+                            time(w.end_s),
                             w.T,
                             p_cell(w.p_value)};
     if (const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s))) {
@@ -166,7 +180,7 @@ Table window_table(const Where& where) {
 
 Section where(const Diagnosis& d) {
   Section section{"Where", {}, On::page};
-  if (const auto sentence = where_sentence(d.where); !sentence.empty())
+  if (const auto sentence = where_sentence(d.where, time_unit(d)); !sentence.empty())
     section.add({Paragraph{sentence}});
   section.add(heat_figure(d.where, d.verdict == Verdict::consistent));
   section.add(signal_figure(d));
@@ -178,7 +192,7 @@ Section where(const Diagnosis& d) {
 
 Section windows(const Diagnosis& d) {
   if (d.where.windows.empty()) return {};
-  return {"Located windows", {window_table(d.where)}, On::page};
+  return {"Located windows", {window_table(d.where, time_unit(d))}, On::page};
 }
 
 }  // namespace drift::report

@@ -57,6 +57,15 @@ std::string at_positions_text(const std::vector<Share>& positions) {
                                  listed(parts, "and"));
 }
 
+/// "7.00 h to 7.50 h; ", on the axis of the page.
+std::string on_axis_in_hours(const ScanHit& w, bool several_recordings) {
+  constexpr double hour = 3600.0;
+  const int decimals = w.end_s - w.start_s < 0.1 * hour ? 3 : 2;
+  return fmt::format("{} h to {} h{}; ", decimal_text(w.start_s / hour, decimals),
+                     decimal_text(w.end_s / hour, decimals),
+                     several_recordings ? " through all recordings" : "");
+}
+
 }  // namespace
 
 std::string label_of(const Cause& c) {
@@ -162,7 +171,7 @@ std::vector<std::string> twins_in_words(const std::vector<Twins>& twins, Instrum
   return lines;
 }
 
-std::string where_sentence(const Where& where) {
+std::string where_sentence(const Where& where, TimeUnit axes) {
   if (where.equation.empty() && where.channels.empty()) return "";
   std::string out = where.equation.empty()
                         ? "The misfit is"
@@ -174,17 +183,17 @@ std::string where_sentence(const Where& where) {
   if (!parts.empty()) out += fmt::format(", seen by {}", listed(parts, "and"));
   out += at_positions_text(where.positions);
   if (std::isfinite(where.onset_s)) {
-    out += "; it " + onset_text(where.onset_s, where.recordings);
+    out += "; it " + onset_text(where.onset_s, where.recordings, axes);
   } else if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
     const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));
     const double offset = r ? r->offset_s : 0.0;
     out += fmt::format(
-        "; the strongest window is {:.0f} s to {:.0f} s{}{} (chance of a false alarm: {})",
+        "; the strongest window is {:.0f} s to {:.0f} s{}{} ({}chance of a false alarm: {})",
         w.start_s - offset, w.end_s - offset, r ? " of " + r->name : "",
         w.equation == where.equation ? ""
                                      : fmt::format(", as the {}", equation_in_words(w.equation)),
-        p_text(w.p_value));
+        axes == TimeUnit::hours ? on_axis_in_hours(w, r != nullptr) : "", p_text(w.p_value));
   }
   return out + ".";
 }

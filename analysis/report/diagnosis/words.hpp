@@ -39,9 +39,17 @@ std::vector<std::string> remarks_of(const diagnosis::Diagnosis& diagnosis);
 const diagnosis::RecordingSpan* recording_at(
     const std::vector<diagnosis::RecordingSpan>& recordings, double t_s);
 
+/// What time axes of a page are in: short tests are shown in seconds, long ones in hours.
+enum class TimeUnit { seconds, hours };
+TimeUnit time_unit(const std::vector<double>& t);
+/// Of the page of a diagnosis; seconds where it has no such axis.
+TimeUnit time_unit(const diagnosis::Diagnosis& diagnosis);
+
 /// When something set in that stays: "sets in at 400 s of b.csv and stays", "is another from
-/// recording 2 (b.csv) on" where that is at its beginning.
-std::string onset_text(double t_s, const std::vector<diagnosis::RecordingSpan>& recordings);
+/// recording 2 (b.csv) on" where that is at its beginning. Beside axes in hours, of one recording,
+/// "sets in at 25200 s (7.00 h) and stays".
+std::string onset_text(double t_s, const std::vector<diagnosis::RecordingSpan>& recordings,
+                       TimeUnit axes = TimeUnit::seconds);
 
 /// A channel in words: "accelerometer y" of "acc_y", "outer gimbal" of "gimbal_outer".
 std::string channel_in_words(const std::string& name);
@@ -54,8 +62,9 @@ std::string fold_name(const diagnosis::Fold& fold,
 std::vector<std::string> twins_in_words(const std::vector<diagnosis::Twins>& twins,
                                         Instrument instrument = Instrument::platform);
 
-/// Where the misfit is, in one sentence; empty if nothing is located.
-std::string where_sentence(const diagnosis::Where& where);
+/// Where the misfit is, in one sentence; empty if nothing is located. Beside axes in hours times
+/// are told in both units.
+std::string where_sentence(const diagnosis::Where& where, TimeUnit axes = TimeUnit::seconds);
 
 /// Whether the cause made held-out prediction better; empty without held-out data.
 std::string held_out_sentence(const diagnosis::HeldOut& held_out);

@@ -37,6 +37,36 @@ TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
       << report::where_sentence(d.where);
 }
 
+TEST(DiagnosisWords, BesideAxesInHoursAWindowIsToldInHoursToo) {
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
+  EXPECT_EQ(report::time_unit(d), report::TimeUnit::seconds);
+  const auto table = [&] {
+    return report::text_of(report::window_table(d.where, report::time_unit(d)));
+  };
+  EXPECT_NE(table().find("from [s]"), std::string::npos) << table();
+  d.fit.residual_t = {60.0, 86400.0};
+  EXPECT_EQ(report::time_unit(d), report::TimeUnit::hours);
+  d.where.windows[0].start_s = 25200.0;
+  d.where.windows[0].end_s = 27000.0;
+  const auto said = [&] { return report::where_sentence(d.where, report::time_unit(d)); };
+  EXPECT_NE(said().find("25200 s to 27000 s (7.00 h to 7.50 h; chance of a false"),
+            std::string::npos)
+      << said();
+  EXPECT_NE(report::text_of({report::verdict(d)}, 400).find("7.00 h to 7.50 h"), std::string::npos);
+  EXPECT_NE(table().find("from [h]"), std::string::npos) << table();
+  EXPECT_NE(table().find("7.000"), std::string::npos) << table();
+  EXPECT_EQ(json::parse(report::to_json(d))["where"]["windows"][0]["start_s"], 25200.0);
+  d.where.windows[0].end_s = 25260.0;  // as many decimals as tell its ends apart
+  EXPECT_NE(said().find("(7.000 h to 7.017 h; "), std::string::npos) << said();
+  d.where.onset_s = 25200.0;
+  EXPECT_NE(said().find("it sets in at 25200 s (7.00 h) and stays"), std::string::npos) << said();
+  d.where.onset_s = std::nan("");
+  d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0}, {"b.csv", 900.0, 86400.0, 800.0}};
+  EXPECT_NE(said().find("of b.csv (7.000 h to 7.017 h through all recordings; chance"),
+            std::string::npos)
+      << said();
+}
+
 /// A consistent diagnosis whose fit takes one parameter 6.1 sigma from its prior, under a field
 /// that nobody measured.
 diagnosis::Diagnosis tense(std::size_t param) {
