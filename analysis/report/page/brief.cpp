@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
+#include "analysis/report/page/escape.hpp"
 #include "analysis/report/page/report.hpp"
 
 namespace drift::report {
@@ -16,64 +20,99 @@ std::vector<std::string> lines_of(const std::string& sentence, std::size_t width
   return lines;
 }
 
-/// The longest beginning of a text that is whole: up to the end of a sentence or of a clause before
-/// a semicolon, not within brackets. Empty where there is none.
-std::string whole_part(const std::string& text, std::size_t most) {
-  std::size_t end = 0;
+/// Where the sentences of a text end, and with clauses the clauses before a semicolon, not within
+/// brackets: the last sentence, which the end of the text ends, has no place.
+std::vector<std::size_t> ends_within(std::string_view text, bool clauses) {
+  std::vector<std::size_t> ends;
   int open = 0;
-  for (std::size_t at = 0; at + 1 < text.size() && at < most; ++at) {
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
     open += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
     if (open > 0) continue;
-    const bool abbreviates = at >= 2 && text.compare(at - 2, 4, "eq. ") == 0;
-    if ((text[at] == '.' || text[at] == ';') && text[at + 1] == ' ' && !abbreviates) end = at;
+    const bool abbreviates = at >= 2 && text.substr(at - 2, 4) == "eq. ";
+    if ((text[at] == '.' || (clauses && text[at] == ';')) && text[at + 1] == ' ' && !abbreviates)
+      ends.push_back(at);
   }
-  return end == 0 ? "" : text.substr(0, end) + ".";
+  return ends;
 }
 
-/// A sentence in at most so many lines. What has no room is left off where a sentence or a clause
+/// What is shown of a text, and how many sentences of it are not.
+struct PartShown {
+  std::vector<std::string> lines;
+  std::size_t left_out = 0;
+};
+
+std::size_t sentences_in(std::string_view text) {
+  return text.empty() ? 0 : ends_within(text, false).size() + 1;
+}
+
+/// A text in at most so many lines. What has no room is left off where a sentence or a clause
 /// ends, so that nothing is shown without what qualifies it; failing that the last line ends with
-/// "...".
-std::vector<std::string> shortened(const std::string& sentence, std::size_t most,
-                                   std::size_t width) {
-  std::vector<std::string> lines = lines_of(sentence, width);
-  if (lines.size() <= most || most == 0) return most == 0 ? std::vector<std::string>{} : lines;
-  for (std::string part = whole_part(sentence, most * width); !part.empty();
-       part = whole_part(part, part.size() - 2))
-    if (auto fitting = lines_of(part, width); fitting.size() <= most) return fitting;
-  lines.resize(most);
-  std::string& last = lines.back();
+/// "...", which says that there is more.
+PartShown shortened(const std::string& text, std::size_t most, std::size_t width) {
+  PartShown all{lines_of(text, width)};
+  if (all.lines.size() <= most) return all;
+  if (most == 0) return {{}, sentences_in(text)};
+  std::vector<std::size_t> ends = ends_within(text, true);
+  for (; !ends.empty(); ends.pop_back())
+    if (auto fitting = lines_of(text.substr(0, ends.back()) + ".", width); fitting.size() <= most)
+      return {std::move(fitting), sentences_in(std::string_view(text).substr(ends.back() + 2))};
+  all.lines.resize(most);
+  std::string& last = all.lines.back();
   while (last.size() + cut_off.size() > width && last.find_last_of(' ') != std::string::npos)
     last.erase(last.find_last_of(' '));
   last += cut_off;
-  return lines;
+  return all;
+}
+
+/// The answer but for its last lines, which say what to do, in so many lines.
+PartShown before_next(const InBrief& brief, std::size_t room, std::size_t width) {
+  PartShown shown;
+  const auto add = [&](const PartShown& part) {
+    room -= part.lines.size();
+    shown.lines.insert(shown.lines.end(), part.lines.begin(), part.lines.end());
+    shown.left_out += part.left_out;
+  };
+  // What is wrong with the input is said whatever the verdict takes.
+  const std::size_t of_wrong = lines_of(brief.more.first_wrong(), width).size();
+  const std::size_t kept = std::min(of_wrong, room / 2);
+  room -= kept;
+  add(shortened(brief.verdict, room, width));
+  room += kept;
+  for (const std::string& text : brief.more.texts()) {
+    const PartShown part = shortened(text, room, width);
+    if (part.lines.empty() || part.lines.back().ends_with(cut_off))
+      shown.left_out += sentences_in(text);  // with nothing whole to be said: not at all
+    else
+      add(part);
+  }
+  return shown;
 }
 
 }  // namespace
 
 std::string brief_text(const InBrief& brief, std::size_t width) {
   constexpr std::size_t most_of_next = 4;
-  const std::vector<std::string> next = shortened(brief.next, most_of_next, width);
-  std::size_t room = most_brief_lines - next.size();
-  std::vector<std::string> shown;
-  const auto add = [&](const std::string& sentence) {
-    const std::vector<std::string> lines = shortened(sentence, room, width);
-    room -= lines.size();
-    shown.insert(shown.end(), lines.begin(), lines.end());
+  const PartShown next = shortened(brief.next, most_of_next, width);
+  const std::size_t room = most_brief_lines - next.lines.size();
+  const auto note_of = [&](const PartShown& shown) {
+    const std::size_t count = shown.left_out + next.left_out;
+    return count == 0 ? std::string()
+                      : fmt::format("({} more sentence{}: --full)", count, count == 1 ? "" : "s");
   };
-  // What is wrong with the input is said whatever the verdict takes.
-  const std::size_t of_wrong = lines_of(brief.more.first_wrong(), width).size();
-  const std::size_t kept = std::min(of_wrong, room / 2);
-  room -= kept;
-  add(brief.verdict);
-  room += kept;
-  for (const std::string& sentence :
-       brief.more.texts())  // with nothing whole to be said: not at all
-    if (const auto lines = shortened(sentence, room, width);
-        !lines.empty() && !lines.back().ends_with(cut_off))
-      add(sentence);
-  shown.insert(shown.end(), next.begin(), next.end());
+  // How many sentences are left out ends the last line where it has room, else it has a line.
+  const auto has_room = [&](const PartShown& shown) {
+    return !shown.lines.empty() &&
+           display_width(shown.lines.back()) + 1 + note_of(shown).size() <= width;
+  };
+  PartShown shown = before_next(brief, room, width);
+  if (!note_of(shown).empty() && !has_room(shown)) shown = before_next(brief, room - 1, width);
+  if (const std::string note = note_of(shown); has_room(shown) && !note.empty())
+    shown.lines.back() += " " + note;
+  else if (!note.empty())
+    shown.lines.push_back(note);
+  shown.lines.insert(shown.lines.end(), next.lines.begin(), next.lines.end());
   std::string out;
-  for (const std::string& line : shown) out += line + '\n';
+  for (const std::string& line : shown.lines) out += line + '\n';
   return out;
 }
 

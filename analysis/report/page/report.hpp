@@ -146,7 +146,9 @@ std::vector<Section> sections_of(const View& view, const ListedSection<View> (&l
 inline constexpr std::size_t most_brief_lines = 10, least_brief_width = 80;
 
 /// The answer in at most most_brief_lines lines: the verdict, what to do, and between them as much
-/// as there is room for. What is cut off ends with "...".
+/// as there is room for. How many sentences have none is said before what to do, "(2 more
+/// sentences:
+/// --full)"; a sentence that is cut ends with "...".
 std::string brief_text(const InBrief& brief, std::size_t width = least_brief_width);
 
 /// The report for a terminal.

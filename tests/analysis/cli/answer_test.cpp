@@ -63,7 +63,35 @@ TEST(Brief, AnAbbreviationIsNoEndOfASentence) {
   report::InBrief brief;
   brief.verdict = "The first sentence is whole. The second says that eq. (5) is 0 and eq. (6) is 1";
   for (int k = 0; k < 200; ++k) brief.verdict += " and more";
-  EXPECT_EQ(report::brief_text(brief), "The first sentence is whole.\n");
+  EXPECT_EQ(report::brief_text(brief), "The first sentence is whole. (1 more sentence: --full)\n");
+}
+
+TEST(Brief, SentencesThatHaveNoRoomAreCountedWithinTheLines) {
+  report::InBrief brief{.verdict = "Verdict.", .next = "Next: do this."};
+  const auto add_lines = [&](std::size_t count, const std::string& line) {
+    for (std::size_t k = 0; k < count; ++k) brief.more.add(Weight::note, line);
+  };
+  add_lines(8, std::string(79, 'x') + '.');
+  EXPECT_EQ(report::brief_text(brief).find("--full"), std::string::npos) << "all have room";
+  // The count takes the line of a sentence where no line has room for it.
+  brief.more.add(Weight::note, "Two are said (eq. 5. or 6). In one text.");
+  const std::string said = report::brief_text(brief);
+  EXPECT_EQ(lines_of(said).size(), report::most_brief_lines);
+  EXPECT_TRUE(said.ends_with("x.\n(3 more sentences: --full)\nNext: do this.\n")) << said;
+  // A last line that is short has it behind its sentence.
+  brief.more = {};
+  add_lines(7, std::string(79, 'x') + '.');
+  add_lines(2, "One more.");
+  EXPECT_TRUE(report::brief_text(brief).ends_with(
+      "x.\nOne more. (1 more sentence: --full)\nNext: do this.\n"))
+      << report::brief_text(brief);
+  // What a text is cut by at the end of a sentence is counted too.
+  brief.more = {};
+  add_lines(7, std::string(79, 'x') + '.');
+  add_lines(1, "Said. Not said, and this is why: " + std::string(50, 'y') + ".");
+  EXPECT_TRUE(
+      report::brief_text(brief).ends_with("\nSaid. (1 more sentence: --full)\nNext: do this.\n"))
+      << report::brief_text(brief);
 }
 
 /// The answer of a command: what it prints up to the first empty line.
