@@ -81,9 +81,12 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         not_declared(d).empty()
             ? ""
             : fmt::format(" but for {}, for want of a key", listed(not_declared(d), "and")));
-  if (d.proposal)
-    return "Next: look for what acts there and then. With the [[term]] of proposal.toml in the "
-           "study, another recording tells whether it comes again.";
+  // What and where, for the sentences that have it may have no room in the short answer.
+  if (const std::string place = place_text(d.where); d.proposal)
+    return fmt::format(
+        "Next: look for what acts as {} += {}{}{}. Then try the [[term]] of proposal.toml on "
+        "another recording.",
+        d.proposal->acts_on, d.proposal->equation, place.empty() ? "" : ", ", place);
   if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
     return fmt::format(
         "Next: more than one effect, or one of another shape, seems to be missing. Diagnose again "
@@ -152,12 +155,13 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
       add(Weight::wrong, "Gimbals", gimbal->text + ".");
       off_zero = true;
     }
-  // Of what is not explained it is no news that parameters take it up, unless that explains it.
-  const Weight doubt = labels_are_late(d) || !priors_at_fault_text(d).empty() ? Weight::wrong
-                       : d.verdict == Verdict::unexplained                    ? Weight::note
-                                                                              : Weight::doubtful;
+  const bool at_fault = labels_are_late(d) || !priors_at_fault_text(d).empty();
   if (!d.wrong_study())
-    for (const auto& [head, sentence] : doubts_of(d)) add(doubt, head, sentence);
+    for (const auto& [head, sentence] : doubts_of(d))
+      add(at_fault                                                        ? Weight::wrong
+          : d.verdict == Verdict::unexplained && head != beyond_its_prior ? Weight::note
+                                                                          : Weight::doubtful,
+          head, sentence);
   if (!d.wrong_study())
     add(Weight::doubtful, "Not examined",
         own_not_examined_text(d.not_examined, d.where.recordings));

@@ -131,7 +131,7 @@ bool labels_are_late(const Diagnosis& d) {
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   std::vector<std::pair<std::string, std::string>> all;
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
-    all.emplace_back("Prior", beyond_prior_text(*beyond) + ".");
+    all.emplace_back(beyond_its_prior, beyond_prior_text(*beyond) + ".");
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)
     all.emplace_back("Gravity", common_scale_text(*beyond->scales));
   // Of one cause the sentence says it; behind several it would be cut off.

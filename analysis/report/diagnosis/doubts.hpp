@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,8 +33,10 @@ bool labels_are_late(const diagnosis::Diagnosis& diagnosis);
 /// What a reader must hear with the verdict, whatever it is: parameters of the model far from their
 /// priors, memory of another path than the platform's or of a gap, isolated samples that were left
 /// out, and a magnetic field that was assumed where a cause or such a parameter hangs on it.
-/// Sentences with the word that heads each.
+/// Sentences with the word that heads each. Parameters far from their priors are in the short
+/// answer whatever the verdict is.
 std::vector<std::pair<std::string, std::string>> doubts_of(const diagnosis::Diagnosis& diagnosis);
+inline constexpr std::string_view beyond_its_prior = "Prior";  ///< heads that sentence
 
 /// `beyond_prior` of diagnosis.json: one object for each such parameter.
 Json beyond_prior_json(const diagnosis::Diagnosis& diagnosis);

@@ -41,15 +41,22 @@ bool is_told(const Share& s) {
   return s.share > 0.1 && s.share > 2.0 * s.sigma;
 }
 
+/// Of these the first three that are told.
+std::vector<Share> told_of(const std::vector<Share>& positions) {
+  std::vector<Share> told;
+  for (const Share& s : positions)
+    if (told.size() < 3 && is_told(s)) told.push_back(s);
+  return told;
+}
+
 /// ", most of it at positions 3 (41 %) and 7 (20 %)"; fewer than half are no most.
 std::string at_positions_text(const std::vector<Share>& positions) {
   std::vector<std::string> parts;
   double sum = 0.0;
-  for (const Share& s : positions)
-    if (parts.size() < 3 && is_told(s)) {
-      parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
-      sum += s.share;
-    }
+  for (const Share& s : told_of(positions)) {
+    parts.push_back(fmt::format("{} ({:.0f} %)", s.position, 100.0 * s.share));
+    sum += s.share;
+  }
   if (parts.empty()) return "";
   const std::string_view s = parts.size() > 1 ? "s" : "";
   return sum > 0.5 ? fmt::format(", most of it at position{} {}", s, listed(parts, "and"))
@@ -64,6 +71,14 @@ std::string on_axis_in_hours(const ScanHit& w, bool several_recordings) {
   return fmt::format("{} h to {} h{}; ", decimal_text(w.start_s / hour, decimals),
                      decimal_text(w.end_s / hour, decimals),
                      several_recordings ? " through all recordings" : "");
+}
+
+/// "400 s to 1000 s of b.csv", in the time of the recording that holds it.
+std::string window_text(const ScanHit& w, const std::vector<RecordingSpan>& recordings) {
+  const RecordingSpan* r = recording_at(recordings, 0.5 * (w.start_s + w.end_s));
+  const double offset = r ? r->offset_s : 0.0;
+  return fmt::format("{:.0f} s to {:.0f} s{}", w.start_s - offset, w.end_s - offset,
+                     r ? " of " + r->name : "");
 }
 
 }  // namespace
@@ -186,16 +201,30 @@ std::string where_sentence(const Where& where, TimeUnit axes) {
     out += "; it " + onset_text(where.onset_s, where.recordings, axes);
   } else if (!where.windows.empty()) {
     const ScanHit& w = where.windows.front();
-    const RecordingSpan* r = recording_at(where.recordings, 0.5 * (w.start_s + w.end_s));
-    const double offset = r ? r->offset_s : 0.0;
     out += fmt::format(
-        "; the strongest window is {:.0f} s to {:.0f} s{}{} ({}chance of a false alarm: {})",
-        w.start_s - offset, w.end_s - offset, r ? " of " + r->name : "",
+        "; the strongest window is {}{} ({}chance of a false alarm: {})",
+        window_text(w, where.recordings),
         w.equation == where.equation ? ""
                                      : fmt::format(", as the {}", equation_in_words(w.equation)),
-        axes == TimeUnit::hours ? on_axis_in_hours(w, r != nullptr) : "", p_text(w.p_value));
+        axes == TimeUnit::hours
+            ? on_axis_in_hours(
+                  w, recording_at(where.recordings, 0.5 * (w.start_s + w.end_s)) != nullptr)
+            : "",
+        p_text(w.p_value));
   }
   return out + ".";
+}
+
+std::string place_text(const Where& where) {
+  std::vector<std::string> positions;
+  for (const Share& s : told_of(where.positions))
+    positions.push_back(fmt::format("{}", s.position));
+  if (!positions.empty())
+    return fmt::format("above all at position{} {}", positions.size() > 1 ? "s" : "",
+                       listed(positions, "and"));
+  return where.windows.empty()
+             ? ""
+             : "above all from " + window_text(where.windows.front(), where.recordings);
 }
 
 std::string held_out_sentence(const HeldOut& held) {

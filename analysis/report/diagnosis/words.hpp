@@ -66,6 +66,10 @@ std::vector<std::string> twins_in_words(const std::vector<diagnosis::Twins>& twi
 /// are told in both units.
 std::string where_sentence(const diagnosis::Where& where, TimeUnit axes = TimeUnit::seconds);
 
+/// The same for a sentence that has no room: "above all at positions 3, 15 and 4", else "above all
+/// from 400 s to 1000 s of b.csv", the strongest window; empty where neither stands out.
+std::string place_text(const diagnosis::Where& where);
+
 /// Whether the cause made held-out prediction better; empty without held-out data.
 std::string held_out_sentence(const diagnosis::HeldOut& held_out);
 

@@ -125,6 +125,38 @@ TEST(DiagnosisWords, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   EXPECT_TRUE(json::parse(report::to_json(other))["beyond_prior"].empty());
 }
 
+TEST(DiagnosisWords, WhatIsUnexplainedLeavesRoomForThePriorAndTheNextStepSaysWhatAndWhere) {
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
+  d.verdict = diagnosis::Verdict::unexplained;
+  d.causes.clear();
+  d.advice.clear();
+  d.has_patch = false;
+  d.noise.clear();
+  d.proposal = Proposal{};
+  d.proposal->acts_on = "drift.y";
+  d.proposal->equation = "A*tanh(f_x/S)";
+  d.proposal->parameters = {{"own_A", 0, 0.123, 0.019, "deg/h", false},
+                            {"own_S", 0, 0.18, 0.024, "g", false}};
+  d.remarks = tense(TermLibrary::find("D_F_y").value()).remarks;
+  const std::string said = report::brief_text(report::diagnosis_in_brief(d));
+  EXPECT_NE(said.find("\nPrior: The fit takes D_F_y 6.1 prior sigmas"), std::string::npos) << said;
+  EXPECT_NE(said.find(" more sentence"), std::string::npos) << "what has no room: " << said;
+  EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 10) << said;
+  EXPECT_EQ(report::diagnosis_in_brief(d).next,
+            "Next: look for what acts as drift.y += A*tanh(f_x/S), above all at positions 3 and 1. "
+            "Then try the [[term]] of proposal.toml on another recording.");
+  // Where no position stands out the strongest window is said, in the time of its recording.
+  d.where.positions.clear();
+  EXPECT_EQ(report::place_text(d.where), "above all from 1200 s to 1800 s");
+  d.where.recordings = {{"a.csv", 0.0, 900.0, 0.0}, {"b.csv", 900.0, 3600.0, 800.0}};
+  EXPECT_EQ(report::place_text(d.where), "above all from 400 s to 1000 s of b.csv");
+  d.where.windows.clear();
+  EXPECT_EQ(report::place_text(d.where), "");
+  EXPECT_TRUE(report::diagnosis_in_brief(d).next.starts_with(
+      "Next: look for what acts as drift.y += A*tanh(f_x/S). Then try"))
+      << report::diagnosis_in_brief(d).next;
+}
+
 TEST(DiagnosisWords, AFormThatIsATermOfTheLibraryIsCalledByItsName) {
   Proposal p;
   p.acts_on = "drift.y";
