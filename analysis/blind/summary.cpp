@@ -166,19 +166,16 @@ void add_targets(const Scores& scores, Summary& s) {
   };
   const double none = 0.0, all = 1.0;
   s.targets = {
-      {"nominal fit looks healthy on effect trials", s.concealed, 0.8, all},
-      {"false alarms on nulls", share(scores, in(Stratum::null), false_alarm), none, 0.05},
-      {"false alarms on wrong-noise nulls", share(scores, in(Stratum::wrong_noise), false_alarm),
-       none, 0.05},
-      {"power at 8 sigma", share(scores, at_eight, detected), 0.98, all},
-      {"8 sigma and above: named exactly or in a set of at most 3",
-       share(scores, large_single, in_set), 0.95, all},
-      {"8 sigma and above: exact single name", share(scores, large_single, exact), 0.75, all},
-      {"8 sigma and above: confidently wrong", share(scores, large_single, wrong), none, 0.01},
-      {"pairs found as pair or set", share(scores, in(Stratum::pair), in_set), 0.9, all},
-      {"outside the library: unexplained", share(scores, in(Stratum::outside), unexplained), 0.8,
-       all},
-      {"recovered parameter within 2 sigma", pulls_within(s.pulls, 2.0), 0.91, 0.99}};
+      {Goal::looks_healthy, s.concealed, 0.8, all},
+      {Goal::alarm_on_null, share(scores, in(Stratum::null), false_alarm), none, 0.05},
+      {Goal::alarm_on_noise, share(scores, in(Stratum::wrong_noise), false_alarm), none, 0.05},
+      {Goal::detected_at_8_sigma, share(scores, at_eight, detected), 0.98, all},
+      {Goal::in_set, share(scores, large_single, in_set), 0.95, all},
+      {Goal::right_name, share(scores, large_single, exact), 0.75, all},
+      {Goal::wrong_name, share(scores, large_single, wrong), none, 0.01},
+      {Goal::pair_in_set, share(scores, in(Stratum::pair), in_set), 0.9, all},
+      {Goal::outside_unexplained, share(scores, in(Stratum::outside), unexplained), 0.8, all},
+      {Goal::size_within_two_sigma, pulls_within(s.pulls, 2.0), 0.91, 0.99}};
 }
 
 void add_further(const Scores& scores, Summary& s) {

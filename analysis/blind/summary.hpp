@@ -33,9 +33,23 @@ constexpr std::string_view text(Standing s) {
 /// Fewest trials of which a target is said to be met or missed.
 inline constexpr std::size_t fewest_trials = 5;
 
+/// What a target is set for; of single effects of 8 sigma and more where nothing else is said.
+enum class Goal {
+  looks_healthy,          ///< the nominal fit, where an effect is hidden
+  alarm_on_null,          ///< nothing is hidden
+  alarm_on_noise,         ///< but noise that is not as declared
+  detected_at_8_sigma,    ///< of 8 to 9 sigma
+  in_set,                 ///< named exactly, or in a set of at most 3
+  right_name,             ///< one name, the right one
+  wrong_name,             ///< one name, a wrong one
+  pair_in_set,            ///< of two effects: the pair, or a set of at most 3 that holds it
+  outside_unexplained,    ///< of effects that are not in the library
+  size_within_two_sigma,  ///< of all that was recovered
+};
+
 /// A target of the blind study and what was measured.
 struct Target {
-  std::string name;
+  Goal goal;
   stats::Proportion measured;
   double low = 0.0, high = 1.0;  ///< the share should lie between
   /// By the share alone.

@@ -2,6 +2,7 @@
 
 #include "analysis/blind/key.hpp"
 #include "analysis/report/blind/sections.hpp"
+#include "analysis/report/blind/target_words.hpp"
 
 namespace drift::report {
 namespace {
@@ -32,7 +33,7 @@ Json of(const std::vector<blind::GroupScore>& groups) {
 Json targets_of(const blind::Summary& s) {
   Json out = Json::array();
   for (const blind::Target& t : s.targets)
-    out.push_back({{"name", t.name},
+    out.push_back({{"name", std::string(name_for_machines(t.goal))},
                    {"from", t.low},
                    {"to", t.high},
                    {"measured", of(t.measured)},

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/blind/sections.hpp"
+#include "analysis/report/blind/target_words.hpp"
 
 namespace drift::report {
 namespace {
@@ -26,29 +27,17 @@ std::string standing_text(const std::vector<blind::Target>& targets) {
       count(blind::Standing::not_decided));
 }
 
-/// "named 12 of 14 (0.57 to 0.98)".
-std::string share_text(const stats::Proportion& p) {
-  return fmt::format("{} of {} ({:.0f} to {:.0f} %)", p.k, p.n, 100.0 * p.low, 100.0 * p.high);
-}
-
-/// Of so few trials that most targets are not decided, the counts; else how the targets stand.
-InBrief in_brief(const BlindResults& results) {
-  const blind::Summary& s = results.summary;
-  InBrief brief;
+/// How every target stands, the missed ones first; the table has their intervals.
+InBrief brief_of(const blind::Summary& s) {
   const auto of = [&](blind::Standing standing) {
     return static_cast<std::size_t>(
         std::ranges::count(s.targets, standing, &blind::Target::standing));
   };
   const bool decided = 2 * of(blind::Standing::not_decided) < s.targets.size();
-  brief.verdict = fmt::format("{}: {} trials, {} of them without an answer.{}",
-                              decided ? "Scored" : "Scored, too few trials to decide targets",
-                              s.trials, s.failed, decided ? " " + standing_text(s.targets) : "");
-  const std::size_t missed = of(blind::Standing::missed);
-  brief.tone = missed > 0 ? Tone::bad : decided && s.failed == 0 ? Tone::good : Tone::doubtful;
-  for (const blind::Target& t : s.targets)
-    if (t.measured.n > 0)
-      brief.more.add(t.standing() == blind::Standing::missed ? Weight::wrong : Weight::note,
-                     fmt::format("{}: {}", t.name, share_text(t.measured)));
+  InBrief brief{.verdict = standings_text(s), .more = targets_in_brief(s.targets)};
+  brief.tone = of(blind::Standing::missed) > 0 ? Tone::bad
+               : decided && s.failed == 0      ? Tone::good
+                                               : Tone::doubtful;
   if (!decided)
     brief.next = "Next: more trials (--trials, or configs/blind.toml) decide the targets.";
   return brief;
@@ -71,7 +60,7 @@ Report blind_report(const BlindResults& results) {
           "Key sealed before any diagnosis: SHA-256 {}; answers before the key was opened: {}.",
           results.key_hash, results.answers_hash)};
   report.order = Order::headlines_last;
-  report.brief = in_brief(results);
+  report.brief = brief_of(s);
   report.add(sections_of(results, blind_sections));
   Json document = blind_document(results);
   if (!results.rivals.empty()) document["rivals"] = rows_json(rivals_table(results));

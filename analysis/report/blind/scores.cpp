@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "analysis/report/blind/sections.hpp"
+#include "analysis/report/blind/target_words.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/figure.hpp"
 #include "core/stats/normal.hpp"
@@ -15,12 +16,6 @@ Cell share_cell(const stats::Proportion& p) {
 Cell interval_cell(const stats::Proportion& p) {
   if (p.n == 0) return "-";
   return {std::vector{p.low, p.high}, fmt::format("{:.3f} to {:.3f}", p.low, p.high)};
-}
-
-std::string wanted(const blind::Target& t) {
-  if (t.low > 0.0 && t.high < 1.0) return fmt::format("{:.2f} to {:.2f}", t.low, t.high);
-  return t.low > 0.0 ? fmt::format("at least {:.2f}", t.low)
-                     : fmt::format("at most {:.2f}", t.high);
 }
 
 Tone tone_of(blind::Standing standing) {
@@ -96,7 +91,8 @@ Section targets(const BlindResults& results) {
                       "decided: fewer than {} trials.",
                       blind::fewest_trials));
   for (const blind::Target& x : results.summary.targets)
-    t.add({x.name, wanted(x), share_cell(x.measured), interval_cell(x.measured), x.measured.n,
+    t.add({std::string(in_full(x.goal)), wanted(x), share_cell(x.measured),
+           interval_cell(x.measured), x.measured.n,
            Cell(std::string(blind::text(x.standing())), tone_of(x.standing()))});
   return {"Targets", {t}};
 }

@@ -178,7 +178,7 @@ TEST(BlindScore, AFailedOrMissingAnswerCountsAgainstEveryShare) {
   const Summary s = summarise(scores);
   EXPECT_EQ(s.failed, 1u);
   for (const Target& t : s.targets)
-    if (t.name == "power at 8 sigma") {
+    if (t.goal == Goal::detected_at_8_sigma) {
       EXPECT_EQ(t.measured.n, 1u);
       EXPECT_EQ(t.measured.k, 0u);
     }
@@ -248,7 +248,7 @@ TEST(BlindScore, AnswersKeepWhatACauseIsLikeAndAreReadWithoutIt) {
 
 TEST(BlindTargets, AreDecidedOnlyByTheWholeInterval) {
   const auto standing = [](std::size_t k, std::size_t n, double low, double high) {
-    return std::string(text(Target{"", stats::proportion(k, n), low, high}.standing()));
+    return std::string(text(Target{Goal::in_set, stats::proportion(k, n), low, high}.standing()));
   };
   // Clopper and Pearson at 95 %: 20 of 20 [0.832, 1], 18 of 20 [0.683, 0.988], 2 of 20 [0.012,
   // 0.317].
