@@ -16,7 +16,8 @@ struct Tally {
   double least_held = 1.0, most_held = 0.0;  ///< share of the errors within 2 sigma
   const Pair* worst = nullptr;               ///< of the most silent failures
   stats::Rate silent = {};
-  double sigmas_off = 1.0;  ///< factor between errors and sigmas of the worst pair
+  double silent_at_most = 0.0;  ///< over all pairs, the upper end of the interval
+  double sigmas_off = 1.0;      ///< factor between errors and sigmas of the worst pair
   const Pair* overconfident = nullptr;
   const Pair* not_linear = nullptr;  ///< the worst whose truths are those that it believes in
   const Pair* unclaimed = nullptr;   ///< of the parameter that is farthest off
@@ -42,6 +43,7 @@ void add(Tally& tally, const StudyResults& results, const Pair& pair) {
   const mc::FilterStatistics& filter = statistics_of(results, pair);
   const stats::Rate& silent = filter.starts().front().silent;
   ++tally.pairs;
+  if (silent.of > 0) tally.silent_at_most = std::max(tally.silent_at_most, silent.high());
   if (std::string model = model_in_words(left_out(results, pair));
       std::ranges::find(tally.models, model) == tally.models.end())
     tally.models.push_back(std::move(model));
@@ -92,24 +94,51 @@ std::string models_text(const Tally& t) {
                      shown < t.models.size() ? ", or others" : "");
 }
 
+/// Of pairs none of which fails silently none is the worst.
 std::string worst_text(const StudyResults& results, const Tally& t) {
-  return fmt::format("silent failures up to {} ({})", rate_cell(t.silent).text,
-                     pair_in_words(results, *t.worst));
+  if (t.silent.of > 0 && t.silent.hits == 0)
+    return fmt::format("no silent failure{} (95 %: at most {} %)",
+                       t.pairs > 1 ? " at any point" : "", percent_cell(t.silent_at_most).text);
+  return fmt::format("silent failures in {}{} of the runs ({})", t.pairs > 1 ? "up to " : "",
+                     rate_cell(t.silent).text, pair_in_words(results, *t.worst));
+}
+
+/// "filter eq6 (plan.preset = slew12: truth eq5)".
+std::string filter_in_words(const StudyResults& results, const Pair& pair) {
+  const std::string condition = condition_of(results.points[pair.point]);
+  return fmt::format("filter {} ({}{}truth {})", statistics_of(results, pair).columns().name,
+                     condition, condition.empty() ? "" : ": ",
+                     key_of(results.points[pair.point].study.truth.coupling));
+}
+
+/// What a filter whose sigmas are not to be trusted lacks, and whether its residuals show it.
+std::string shown_text(const StudyResults& results, const Pair& pair) {
+  const mc::LeftOut lacks = left_out(results, pair);
+  const mc::StartStatistics& start = first_start(results, pair);
+  const std::string model = lacks.nothing() ? "Its model is the truth's"
+                                            : fmt::format("It {} {}", lacks.equation ? "has" : "is",
+                                                          model_in_words(lacks));
+  const auto estimated = static_cast<double>(start.healthy.of - start.diverged.hits);
+  if (!(estimated > 0.0)) return model + ".";
+  const double alarms = 1.0 - static_cast<double>(start.healthy.hits) / estimated;
+  return fmt::format("{}; its residuals alarm in {} % of the runs (by chance 5).", model,
+                     percent_cell(alarms).text);
 }
 
 /// Whatever the innovations say: the sigmas of such a filter are not those of its errors.
 std::string sigmas_text(const StudyResults& results, const Tally& t) {
   return fmt::format(
-      "Do not trust the sigmas: errors are up to {} times as large (root of NEES/dof; {}).",
-      number_text(t.sigmas_off, 2), pair_in_words(results, *t.overconfident));
+      "Do not trust the sigmas of {}: errors are {} times as large (root of NEES/dof). {}",
+      filter_in_words(results, *t.overconfident), number_text(t.sigmas_off, 2),
+      shown_text(results, *t.overconfident));
 }
 
 std::string unclaimed_text(const StudyResults& results, const Pair& pair) {
   const mc::FilterStatistics& filter = statistics_of(results, pair);
   const FarOff off = far_off(filter).value();
-  return fmt::format("Do not trust the sigma of {}: its errors are {} times as large ({}).",
-                     far_off_text(filter, off), number_text(off.times, 3),
-                     pair_in_words(results, pair));
+  return fmt::format("Do not trust the sigma of {} in {}: its errors are {} times as large. {}",
+                     far_off_text(filter, off), filter_in_words(results, pair),
+                     number_text(off.times, 3), shown_text(results, pair));
 }
 
 std::string diverged_text(const StudyResults& results, const Tally& t) {

@@ -78,6 +78,33 @@ TEST(StudyBrief, WhatIsSaidOfTheSigmasOfAPairIsNotSaidOfItsInnovationsAgain) {
   EXPECT_FALSE(report::study_in_brief(results).more.first_wrong().empty());
 }
 
+TEST(StudyBrief, SigmasNotToBeTrustedAreThoseOfAFilterAndWhetherItsResidualsShowItIsSaid) {
+  const report::StudyResults silent = results_of(test::small_study, 40, 1, 1.0, 9.0),
+                             seen = results_of(test::small_study, 40, 1, 14.5, 9.0);
+  EXPECT_EQ(
+      said(silent, "filter wrong ("),
+      "Do not trust the sigmas of filter wrong (truth eq5): errors are 3 times as large (root "
+      "of NEES/dof). It has the wrong equation; its residuals alarm in 0.0 % of the runs (by "
+      "chance 5).");
+  EXPECT_NE(said(seen, "filter wrong (").find("its residuals alarm in 100.0 % of the runs"),
+            std::string::npos);
+  EXPECT_NE(said(silent, "filter right (").find("Its model is the truth's; its residuals alarm"),
+            std::string::npos)
+      << said(silent, "filter right (");
+}
+
+TEST(StudyBrief, WhereNoFilterFailsSilentlyNoPointIsTheWorst) {
+  // Wilson's interval of 0 of 40 ends at z^2 / (40 + z^2) = 0.0876.
+  EXPECT_EQ(report::study_in_brief(results_of(test::small_study, 40, 1)).verdict,
+            "With the wrong equation: no silent failure (95 %: at most 8.8 %).");
+  const std::string swept = test::small_study + R"([sweep]
+"truth.parameters.eta" = ["20 arcsec", "30 arcsec"]
+)";
+  EXPECT_NE(said(results_of(swept, 40, 2), "With the right model")
+                .find("no silent failure at any point (95 %: at most 8.8 %)."),
+            std::string::npos);
+}
+
 TEST(StudyBrief, AnUnfinishedStudySaysSoFirst) {
   const std::string text = test::small_study + R"([sweep]
 "truth.parameters.eta" = ["20 arcsec", "30 arcsec", "40 arcsec"]

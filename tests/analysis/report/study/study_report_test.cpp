@@ -78,7 +78,7 @@ TEST(StudyReport, TheShortAnswerSaysThatSigmasAreWrong) {
   const report::InBrief brief = report::study_in_brief(swept());
   ASSERT_FALSE(brief.more.empty());
   EXPECT_NE(brief.more.texts().front().find(
-                fmt::format("errors are up to {} times as large", number_text(worst, 2))),
+                fmt::format("errors are {} times as large", number_text(worst, 2))),
             std::string::npos)
       << brief.more.texts().front();
   EXPECT_EQ(brief.tone, report::Tone::bad);
