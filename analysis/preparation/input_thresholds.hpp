@@ -138,6 +138,16 @@ struct ClockLimits {
   static constexpr double no_command = 1e-9;  ///< [rad/s], rounding of a text file
 };
 
+/// When the Earth's rate about Up, as the gyros of a unit on a case read it at rest, tells the unit
+/// from its mirror image. Test: GyroSigns.*
+struct MirrorLimits {
+  static constexpr std::size_t rests = 6;  ///< fewer leave the drift of three gyros no residual
+  static constexpr double sigmas = 5.0;    ///< of what is read, that the Earth's rate must be
+  /// Part of it by which what is read may miss it: nearer to one of the two than to none. Drift
+  /// with the input axis that the three have alike is read as well.
+  static constexpr double room = 0.5;
+};
+
 /// When the gyros of a unit on a case are read in another unit, or with the other sign. Chances are
 /// worked out in strapdown/gyro_unit.hpp. Test: CaseStudy.GyrosInAnotherUnit...
 struct GyroUnitLimits {

@@ -176,7 +176,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
           preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));
       !wrong.empty())
     throw InputError(ExitCode::recording, wrong);
-  require_gyro_unit(signals, out.search.dwells, out.source);
+  require_gyro_unit(signals, out.search.dwells, study.site, out.source);
   remark_lone_samples(signals, recording, out.remarks);
   out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.

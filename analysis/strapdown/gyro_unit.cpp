@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include "analysis/preparation/input_thresholds.hpp"
+#include "analysis/strapdown/gyro_signs.hpp"
 #include "core/base/check.hpp"
-#include "core/plan/mixup.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
@@ -52,54 +50,30 @@ struct Mistake {
   double times;  ///< the rates; or the times, which does the same to turns
 };
 
-/// Gyros or accelerometers exchanged or reversed: some turns are nothing like what they should be,
-/// and with the columns taken otherwise all are.
-void require_columns(const Signals& signals, const std::vector<Dwell>& dwells,
+/// Gyros or accelerometers exchanged or reversed.
+void require_columns(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site,
                      const std::string& source, const std::vector<double>& declared) {
-  const auto nothing_like = [](double error) { return error > Limits::nothing_like; };
-  const auto wrong = static_cast<std::size_t>(std::ranges::count_if(declared, nothing_like));
-  if (wrong < Limits::fewest_turns) return;
-  const auto explains = [&](const Taken& as) {
-    const std::vector<double> otherwise = errors(signals, dwells, as);
-    std::vector<double> of_wrong;
-    for (std::size_t k = 0; k < otherwise.size(); ++k)
-      if (nothing_like(declared[k])) of_wrong.push_back(otherwise[k]);
-    return stats::upper_median(std::move(of_wrong)) < Limits::alike &&
-           stats::upper_median(otherwise) < Limits::alike &&
-           static_cast<std::size_t>(std::ranges::count_if(otherwise, nothing_like)) < wrong;
-  };
-  const auto gyros = the_one_mixup([&](const Mixup& m) { return explains({.gyros = m}); });
-  const auto forces =
-      the_one_mixup([&](const Mixup& m) { return explains({.accelerometers = m}); });
-  if (!gyros && !forces) return;
-  // Where both explain it the plainer is likelier.
-  const auto of = [](const std::optional<Mixup>& m) {
-    return m ? plainness(*m) : std::pair<int, long>(4, 0);
-  };
-  const auto by_gyros = of(gyros), by_forces = of(forces);
-  const std::string all = "from rest to rest gravity turns as the gyros do",
-                    of_gyros = gyros && by_gyros <= by_forces
-                                   ? mixup_text(*gyros, gyro_channels, all)
-                                   : "",
-                    of_forces = forces && by_forces <= by_gyros
-                                    ? mixup_text(*forces, accelerometer_channels, all)
-                                    : "";
+  const std::string mends = mistaken_columns(dwells, site, declared, [&](const ColumnsAs& as) {
+    return errors(signals, dwells, {.gyros = as.gyros, .accelerometers = as.accelerometers});
+  });
+  if (mends.empty()) return;
+  const auto wrong =
+      std::ranges::count_if(declared, [](double error) { return error > Limits::nothing_like; });
   throw InputError(
       ExitCode::recording,
       fmt::format("{}: in {} of {} turns the gyros turn gravity by nothing like what the "
-                  "accelerometers see from rest to rest. {}{}{}",
-                  source, wrong, declared.size(), of_gyros,
-                  of_gyros.empty() || of_forces.empty() ? "" : ". Or ", of_forces));
+                  "accelerometers see from rest to rest. {}",
+                  source, wrong, declared.size(), mends));
 }
 
 }  // namespace
 
-void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
+void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site,
                        const std::string& source) {
   const std::vector<double> declared = errors(signals, dwells, {});
   if (declared.size() < Limits::fewest_turns) return;
   const double as_declared = stats::upper_median(declared);
-  if (as_declared < Limits::alike) return require_columns(signals, dwells, source, declared);
+  if (as_declared < Limits::alike) return require_columns(signals, dwells, site, source, declared);
   constexpr double deg = detail::deg;
   constexpr Mistake mistakes[] = {
       {"their unit: the numbers look like [rad/s], not [deg/s]", 1.0 / deg},
@@ -108,7 +82,6 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
       {"their unit: the numbers look like [rad/s], not [deg/h]", 3600.0 / deg},
       {"their unit: the numbers look like [deg/h], not [deg/s]", 1.0 / 3600.0},
       {"their unit: the numbers look like [deg/h], not [rad/s]", deg / 3600.0},
-      {"their sign: put a - before the columns in [recording]", -1.0},
       {"the unit of the times: they look like [ms], not [s]. Write time [ms] in the header; or "
        "that "
        "of the gyros, whose numbers look like mdeg/s, not deg/s",
@@ -128,7 +101,7 @@ void require_gyro_unit(const Signals& signals, const std::vector<Dwell>& dwells,
                     source, std::string_view(m.words).starts_with("their") ? "gyro_x" : "time",
                     100.0 * as_declared, declared.size(), 100.0 * otherwise, m.words));
   }
-  require_columns(signals, dwells, source, declared);
+  require_columns(signals, dwells, site, source, declared);
 }
 
 }  // namespace drift::strapdown

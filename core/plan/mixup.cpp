@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace drift {
 std::pair<int, long> plainness(const Mixup& m) {
@@ -18,18 +17,26 @@ int Mixup::changes() const {
   return n;
 }
 
-std::optional<Mixup> the_one_mixup(const std::function<bool(const Mixup&)>& explains) {
-  std::optional<Mixup> found;
-  bool several = false;
+std::vector<Mixup> every_mixup() {
+  std::vector<Mixup> all;
   Mixup m;
   do {
     for (int signs = 0; signs < 8; ++signs) {
       for (int i = 0; i < 3; ++i) m.sign[i] = (signs >> i & 1) != 0 ? -1.0 : 1.0;
-      if (m.changes() == 0 || (found && plainness(m) > plainness(*found)) || !explains(m)) continue;
-      several = found && plainness(m) == plainness(*found);
-      found = m;
+      all.push_back(m);
     }
   } while (std::next_permutation(m.from.begin(), m.from.end()));
+  return all;
+}
+
+std::optional<Mixup> the_one_mixup(const std::function<bool(const Mixup&)>& explains) {
+  std::optional<Mixup> found;
+  bool several = false;
+  for (const Mixup& m : every_mixup()) {
+    if (m.changes() == 0 || (found && plainness(m) > plainness(*found)) || !explains(m)) continue;
+    several = found && plainness(m) == plainness(*found);
+    found = m;
+  }
   return several ? std::nullopt : found;
 }
 

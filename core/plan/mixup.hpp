@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/linalg.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -21,6 +22,9 @@ struct Mixup {
   }
   int changes() const;
 };
+
+/// All 48, the one that changes nothing among them.
+std::vector<Mixup> every_mixup();
 
 /// By which one mixup is plainer than another: fewer changes, of these fewer reversed columns.
 std::pair<int, long> plainness(const Mixup& mixup);

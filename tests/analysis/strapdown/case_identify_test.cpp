@@ -179,7 +179,7 @@ TEST(CaseStudy, GyrosInAnotherUnitOrOfTheOtherSignAreRefused) {
   for (const auto& [times, words] : std::initializer_list<std::pair<double, const char*>>{
            {detail::deg, "look like [rad/s], not [deg/s]"},
            {1.0 / detail::deg, "look like [deg/s], not [rad/s]"},
-           {-1.0, "Correct their sign"}}) {
+           {-1.0, R"(gyro_x = "-gyro_x", gyro_y = "-gyro_y", gyro_z = "-gyro_z")"}}) {
     Recording wrong = right;
     for (const std::size_t channel : {1, 2, 3})
       for (double& rate : wrong.channels[channel].values) rate *= times;
