@@ -140,17 +140,53 @@ void leave_out_of_one(Channel& c, const Channel& position, double apart, bool an
   for (const auto& [number, runs] : all) leave_out({&c}, runs, r, remarks);
 }
 
+std::vector<Channel*> channels_of(Recording& r, const ChannelTriple& triple) {
+  std::vector<Channel*> channels;
+  for (const std::string_view name : triple.names)
+    if (const auto c = std::ranges::find(r.channels, name, &Channel::name); c != r.channels.end())
+      channels.push_back(&*c);
+  return channels;
+}
+
+/// Takes the rows of the runs out of gyros that read alike there, too; whether any did.
+bool leave_out_alike(const std::vector<Channel*>& gyros, const std::vector<Run>& runs) {
+  if (gyros.size() != 3) return false;
+  bool any = false;
+  for (const Run& run : runs)
+    for (std::size_t i = run.first; i <= run.last; ++i) {
+      const double first = gyros[0]->values[i];
+      if (gyros[1]->values[i] != first || gyros[2]->values[i] != first) continue;
+      any = true;
+      for (Channel* c : gyros) c->values[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  return any;
+}
+
 }  // namespace
+
+void leave_out_fillers_on_a_case(Recording& r, std::vector<std::string>& remarks) {
+  const std::vector<Channel*> acc = channels_of(r, accelerometer_channels);
+  if (acc.size() != 3) return;
+  const auto coarse = [](const Channel* c) {
+    const auto step = reading_step(*c, nullptr);
+    return step && *step > FillerLimits::force;
+  };
+  if (std::ranges::any_of(acc, coarse)) return;
+  const Channel anywhere{"position", unit::one, std::vector<double>(r.rows(), 1.0)};
+  for (const auto& [number, runs] :
+       alike_in_all({acc[0], acc[1], acc[2]}, anywhere, FillerLimits::force, false)) {
+    leave_out(acc, runs, r, remarks);
+    if (leave_out_alike(channels_of(r, gyro_channels), runs))
+      remarks.back() += ", with gyro_x, gyro_y and gyro_z where they read alike, too";
+  }
+}
 
 void leave_out_fillers(Recording& r, std::vector<std::string>& remarks) {
   const Channel* const found = r.find("position");
   if (found == nullptr) return;
   const Channel position = *found;
   for (const ChannelTriple& triple : {accelerometer_channels, gimbal_channels}) {
-    std::vector<Channel*> channels;
-    for (const std::string_view name : triple.names)
-      if (const auto c = std::ranges::find(r.channels, name, &Channel::name); c != r.channels.end())
-        channels.push_back(&*c);
+    const std::vector<Channel*> channels = channels_of(r, triple);
     const bool angle = triple.names == gimbal_channels.names;
     const double apart = angle ? FillerLimits::angle : FillerLimits::force;
     if (channels.size() == 3)

@@ -16,4 +16,9 @@ namespace drift::preparation {
 /// sample and left to the fit.
 void leave_out_fillers(Recording& recording, std::vector<std::string>& remarks);
 
+/// Of a unit on a case, which has no positions: what its three accelerometers read at once, in
+/// three rows and more, and far from their neighbours. Where its gyros read alike in such a row
+/// they have not been read either. Counts that are as coarse as that are no fillers.
+void leave_out_fillers_on_a_case(Recording& recording, std::vector<std::string>& remarks);
+
 }  // namespace drift::preparation

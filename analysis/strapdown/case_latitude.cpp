@@ -25,7 +25,10 @@ std::optional<EarthSeen> earth_of(const mc::Study& study, const Recording& recor
                                   const DwellSearch& search) {
   constexpr int rounds = 6;
   constexpr double stands = 0.01;  // of its sigma
-  const Signals signals = signals_of(recording);
+  Recording measured = recording;
+  std::vector<std::string> said_before;
+  leave_out_not_measured(measured, said_before);
+  const Signals signals = signals_of(measured);
   Site site = study.site;
   EarthSeen seen;
   for (int round = 0; round < rounds; ++round) {

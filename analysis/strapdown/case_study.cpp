@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/held_rows.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
@@ -160,10 +161,15 @@ preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& s
   return preparation::noise_card(recording, RecordingKind::strapdown, resting_rows(search));
 }
 
+void leave_out_not_measured(Recording& recording, std::vector<std::string>& remarks) {
+  preparation::leave_out_fillers_on_a_case(recording, remarks);
+  preparation::leave_out_stuck(recording, remarks);
+}
+
 CaseStudy case_study(const mc::Study& study, const Recording& given) {
   CaseStudy out;
   Recording recording = given;
-  preparation::leave_out_stuck(recording, out.remarks);
+  leave_out_not_measured(recording, out.remarks);
   out.source = recording.source;
   out.static_min = study.static_min;
   const Signals signals = signals_of(recording);

@@ -32,10 +32,14 @@ double drift_prior(const mc::Study& study);
 /// The noise of the sensors in the dwells.
 preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search);
 
+/// Takes out what a logger writes where it has read nothing, and what a stuck sensor reads.
+void leave_out_not_measured(Recording& recording, std::vector<std::string>& remarks);
+
 /// Finds the dwells, levels and gyrocompasses, lays out. The prior of the gyros' fixed drift is
 /// that of the study's first filter. A unit whose gyros do not see the Earth is laid out one way at
 /// a time, levelled by accelerometers that are calibrated on gravity where there are dwells enough.
-/// What a stuck sensor reads, or one at the end of its range, is left out and remarked.
+/// What was not measured, or by a sensor that is stuck or at the end of its range, is left out and
+/// remarked.
 /// InputError (recording) if the channels are not there or the unit never rests.
 CaseStudy case_study(const mc::Study& study, const Recording& recording);
 

@@ -65,6 +65,72 @@ TEST(Fillers, ANumberThatAllThreeReadMayBeNearWhatTheyReadElsewhere) {
       << remarks[0];
 }
 
+/// A unit on a case, in one attitude; reads: three accelerometers, then three gyros.
+Recording on_a_case() {
+  Recording r;
+  r.source = "log.csv";
+  for (const char* name : {"acc_x", "acc_y", "acc_z"}) r.channels.push_back({name, unit::g, {}});
+  for (const char* name : {"gyro_x", "gyro_y", "gyro_z"})
+    r.channels.push_back({name, *parse_unit("rad/s"), {}});
+  for (int row = 0; row < 200; ++row) {
+    const double noise = 1e-3 * std::sin(1.7 * row);
+    for (const std::size_t c : {0, 1}) r.channels[c].values.push_back(0.01 + noise);
+    r.channels[2].values.push_back(1.0 - noise);
+    for (const std::size_t c : {3, 4, 5})
+      r.channels[c].values.push_back(noise + 1e-4 * static_cast<double>(c));
+    r.lines.push_back(static_cast<std::size_t>(row + 2));
+  }
+  return r;
+}
+
+TEST(Fillers, OnACaseNoSpecificForceIsZero) {
+  Recording r = on_a_case();
+  const std::vector<std::size_t> rows{20, 21, 90, 150};
+  for (Channel& c : r.channels)
+    for (const std::size_t row : rows) c.values[row] = 0.0;
+  r.channels[4].values[150] = 0.2;
+  std::vector<std::string> remarks;
+  leave_out_fillers_on_a_case(r, remarks);
+  for (const char* name : {"acc_x", "acc_y", "acc_z"}) EXPECT_EQ(missing(r, name), 4u) << name;
+  for (const char* name : {"gyro_x", "gyro_y", "gyro_z"}) EXPECT_EQ(missing(r, name), 3u) << name;
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0],
+            "log.csv: acc_x, acc_y and acc_z all read 0 g in 4 rows, the first in line 22, far "
+            "from what is beside them: taken as not measured, with gyro_x, gyro_y and gyro_z "
+            "where they read alike, too");
+}
+
+TEST(Fillers, OnACaseTwoRowsAndCoarseCountsAndSmallForcesStay) {
+  std::vector<std::string> remarks;
+  Recording two = on_a_case();
+  for (const std::size_t c : {0, 1, 2})
+    for (const std::size_t row : {20, 90}) two.channels[c].values[row] = 0.0;
+  leave_out_fillers_on_a_case(two, remarks);
+  EXPECT_EQ(missing(two, "acc_z"), 0u);
+  // A row holds a count or none.
+  Recording counts = on_a_case();
+  double sum = 0.0, counted = 0.0;
+  for (double& force : counts.channels[2].values) {
+    sum += force / 1.4;
+    const double before = counted;
+    counted = std::round(sum);
+    force = 1.4 * (counted - before);
+  }
+  for (const std::size_t c : {0, 1})
+    for (double& force : counts.channels[c].values) force = 0.0;
+  leave_out_fillers_on_a_case(counts, remarks);
+  EXPECT_EQ(missing(counts, "acc_z"), 0u);
+  // Alike to the last digit, and no other than beside it.
+  Recording alike = on_a_case();
+  for (std::size_t row = 0; row < alike.rows(); ++row) {
+    const double force = 0.577 + 1e-3 * std::sin(0.9 * static_cast<double>(row));
+    for (const std::size_t c : {0, 1, 2}) alike.channels[c].values[row] = force;
+  }
+  leave_out_fillers_on_a_case(alike, remarks);
+  EXPECT_EQ(missing(alike, "acc_z"), 0u);
+  EXPECT_TRUE(remarks.empty()) << remarks.front();
+}
+
 TEST(Fillers, NoSpecificForceIsAlikeToTheLastDigitNorDoesATemperatureJump) {
   Recording r = resting();
   Channel y{"acc_y", unit::g, std::vector<double>(30, 0.3)},

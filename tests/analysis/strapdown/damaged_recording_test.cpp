@@ -1,4 +1,5 @@
 // Recordings with something broken: what is lost is said, and the channel named.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,6 +60,23 @@ TEST(DamagedRecording, ALoneEmptyCellOfATurnIsBridgedAndTwoInARowAreAGapThatIsSa
   EXPECT_NE(lost.remarks[0].find("1 of the 11 turns between dwells is left out for gaps"),
             std::string::npos)
       << lost.remarks[0];
+}
+
+TEST(DamagedRecording, RowsOfZerosAreNotMeasured) {
+  const CaseStudy whole = case_study(study(), made());
+  Recording r = made();
+  std::size_t rows = 0;
+  for (std::size_t row = 57; row < r.rows(); row += 501, ++rows)
+    for (const char* name : {"gyro_x", "gyro_y", "gyro_z", "acc_x", "acc_y", "acc_z"})
+      channel(r, name)[row] = 0.0;
+  const CaseStudy filled = case_study(study(), r);
+  EXPECT_EQ(filled.test.ways, whole.test.ways);
+  ASSERT_EQ(filled.search.dwells.size(), whole.search.dwells.size());
+  for (std::size_t d = 0; d < whole.search.dwells.size(); ++d)
+    EXPECT_LT((filled.search.dwells[d].acc - whole.search.dwells[d].acc).norm(), 1e-4) << d;
+  ASSERT_EQ(filled.remarks.size(), 1u);
+  EXPECT_NE(filled.remarks[0].find(fmt::format("all read 0 g in {} rows", rows)), std::string::npos)
+      << filled.remarks[0];
 }
 
 TEST(DamagedRecording, AnAccelerometerThatStandsStillIsNamedWhereNothingIsQuiet) {
