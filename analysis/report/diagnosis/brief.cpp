@@ -11,6 +11,7 @@
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
+#include "analysis/report/page/wording.hpp"
 
 namespace drift::report {
 
@@ -36,6 +37,12 @@ bool asks_for_nothing(const Advice& a) {
   return a.kind == Advice::Kind::told || a.kind == Advice::Kind::unlike;
 }
 
+/// Whether readings that agree otherwise ask for another gravity.
+bool gravity_is_off(const Diagnosis& d) {
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  return d.verdict == Verdict::consistent && beyond != nullptr && beyond->scales;
+}
+
 /// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
 std::string next_step(const Diagnosis& d, bool off_zero) {
   if (labels_are_late(d))
@@ -53,6 +60,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
                      "Next: look up {} before anything is added to the model; where it is wrong, "
                      "correct it, or widen it to hold what the fit takes, and diagnose again.",
                      priors);
+  if (gravity_is_off(d)) return gravity_next("diagnose");
   if (off_zero && d.verdict != Verdict::consistent)
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);
@@ -107,7 +115,9 @@ std::string verdict_word(const Diagnosis& d) {
                        nothing_else(*d.site_doubt) ? "" : " and more");
   switch (d.verdict) {
     case Verdict::consistent:
-      return "Consistent: nothing significant is missing.";
+      return but_far_from_priors(d).empty()
+                 ? "Consistent: nothing significant is missing."
+                 : "Consistent, but far from its priors: nothing else is missing.";
     case Verdict::named:
       return "Named: the data single out what is missing.";
     case Verdict::ambiguous:
@@ -133,10 +143,10 @@ std::string headline(const Diagnosis& d) {
 InBrief diagnosis_in_brief(const Diagnosis& d) {
   InBrief brief;
   brief.verdict = headline(d);
-  brief.tone = d.wrong_study()                    ? Tone::bad
-               : d.verdict == Verdict::consistent ? Tone::good
-               : d.verdict == Verdict::named      ? Tone::doubtful
-                                                  : Tone::bad;
+  brief.tone = d.wrong_study()                                                      ? Tone::bad
+               : d.verdict == Verdict::consistent && but_far_from_priors(d).empty() ? Tone::good
+               : d.verdict == Verdict::named || d.verdict == Verdict::consistent    ? Tone::doubtful
+                                                                                    : Tone::bad;
   const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
   };

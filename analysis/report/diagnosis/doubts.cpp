@@ -55,6 +55,18 @@ std::string wrong_priors_text(const Diagnosis& d) {
                      nothing_left, words);
 }
 
+std::string but_far_from_priors(const Diagnosis& d) {
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  if (beyond == nullptr) return "";
+  const bool several = beyond->parameters.size() > 1;
+  return fmt::format(", but the fit takes {} {}{:.1f} prior sigmas from {}: {}",
+                     listed_up_to(keys_of(*beyond), most_keys), several ? "up to " : "",
+                     beyond->farthest().sigmas, several ? "their priors" : "its prior",
+                     beyond->scales ? "the gravity, or the unit of the accelerometers, is wrong"
+                     : several      ? "wrong priors, or something that they take up"
+                                    : "a wrong prior, or something that it takes up");
+}
+
 std::string beyond_prior_text(const remark::BeyondPrior& r) {
   const std::vector<std::string> keys = keys_of(r);
   const remark::BeyondPrior::Parameter& far = r.farthest();

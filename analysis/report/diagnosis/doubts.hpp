@@ -19,6 +19,10 @@ std::string priors_at_fault_text(const diagnosis::Diagnosis& diagnosis);
 /// The verdict's sentence where they are told, with the causes that it may be instead.
 std::string wrong_priors_text(const diagnosis::Diagnosis& diagnosis);
 
+/// ", but the fit takes K1_x, K1_y, K1_z up to 20.0 prior sigmas from their priors: ...", for a
+/// recording that is consistent otherwise; empty where no parameter lies too far from its prior.
+std::string but_far_from_priors(const diagnosis::Diagnosis& diagnosis);
+
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
 /// The same where the test was diagnosed at that latitude (Diagnosis::there).

@@ -160,7 +160,9 @@ std::string verdict_alone(const Diagnosis& d) {
     return priors + (d.verdict == Verdict::consistent && !noise.empty() ? " Or else:" + noise : "");
   switch (d.verdict) {
     case Verdict::consistent:
-      return fmt::format("{}; no missing physics is found (noise alone {}).{}{}", agrees,
+      return fmt::format("{}{}; {}no missing physics is found (noise alone {}).{}{}", agrees,
+                         but_far_from_priors(d),
+                         but_far_from_priors(d).empty() ? "" : "beside that ",
                          shows_as_much(d.p_value), chance_text(d), noise);
     case Verdict::named:
       return fmt::format("{}; {} ({}).{}", lacking(d.causes, instrument_of(d)),

@@ -73,6 +73,11 @@ std::string common_scale_text(const identification::CommonScale& common) {
       larger ? "small" : "large");
 }
 
+std::string gravity_next(std::string_view command) {
+  return fmt::format("Next: correct site.gravity, or the unit of the accelerometers, and {} again.",
+                     command);
+}
+
 std::string field_assumed_text(const Vec3& field_l) {
   const Vec3 gauss = field_l / "gauss"_unit.to_si;
   return fmt::format(

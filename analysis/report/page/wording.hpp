@@ -33,6 +33,8 @@ std::string spikes_text(const std::vector<identification::Spike>& spikes);
 std::string late_labels_text(const std::vector<identification::Spike>& spikes);
 /// A sentence on what would move the three K1 alike.
 std::string common_scale_text(const identification::CommonScale& common);
+/// What to do about it, before the command is repeated.
+std::string gravity_next(std::string_view command);
 
 /// That the magnetic field is taken to be that of a dipole, a sentence. field_l: local axes [T].
 std::string field_assumed_text(const Vec3& field_l);
