@@ -32,4 +32,11 @@ std::optional<CommonScale> common_scale(const EstimateResult& estimate,
   return common;
 }
 
+EstimateResult without_prior_cost(EstimateResult estimate, const ScaleFactors& scales) {
+  for (const std::size_t scale : scales)
+    if (const ParameterEstimate* p = estimate.find(scale); p != nullptr && p->prior_sigma > 0.0)
+      estimate.statistic -= std::pow((p->value - p->prior_mean) / p->prior_sigma, 2);
+  return estimate;
+}
+
 }  // namespace drift::identification

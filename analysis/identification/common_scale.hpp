@@ -29,4 +29,9 @@ struct CommonScale {
 std::optional<CommonScale> common_scale(const EstimateResult& estimate,
                                         const ScaleFactors& scales = accelerometer_scales);
 
+/// The estimate of a batch fit without what the priors of these three cost its statistic: what the
+/// data leave where one cause has moved them.
+EstimateResult without_prior_cost(EstimateResult estimate,
+                                  const ScaleFactors& scales = accelerometer_scales);
+
 }  // namespace drift::identification

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/identify.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
@@ -119,9 +121,25 @@ std::string gaps_text(const strapdown::CaseStudy& s) {
   return n == 0 ? "" : fmt::format(" ({} more {} left out for gaps)", n, n == 1 ? "is" : "are");
 }
 
+/// What moves the three K1 alike, unless the study is of another place.
+std::optional<identification::CommonScale> gravity_off(const CaseIdentification& id) {
+  if (id.latitude) return std::nullopt;
+  return identification::common_scale(id.fits.front().fit.estimate);
+}
+
+/// Whether the recording misfits by nothing but the priors of the three K1.
+bool misfit_of_gravity_alone(const CaseIdentification& id) {
+  const EstimateResult& estimate = id.fits.front().fit.estimate;
+  return identification::misfit(estimate) && gravity_off(id) &&
+         !identification::misfit(identification::without_prior_cost(estimate));
+}
+
 /// What diagnose does for a recording that is a misfit, and for one that is none.
 std::string next_of(const CaseIdentification& id) {
   if (id.latitude) return latitude_next(*id.latitude, "identify");
+  if (gravity_off(id) &&
+      (misfit_of_gravity_alone(id) || !identification::misfit(id.fits.front().fit.estimate)))
+    return gravity_next("identify");
   return fmt::format("Next: driftscope diagnose, on the same study and recording, says {}.",
                      identification::misfit(id.fits.front().fit.estimate)
                          ? "what is missing, in the model or in the noise"
@@ -150,6 +168,11 @@ InBrief in_brief(const CaseIdentification& id) {
         id.latitude->alone() ? "" : " and more", latitude_text(*id.latitude),
         id.latitude->declared / unit::deg.to_si, number_text(id.latitude->chi2_per_dof_after, 3),
         number_text(id.latitude->chi2_per_dof_before, 3), upside_down_text(*id.latitude));
+  else if (misfit_of_gravity_alone(id))
+    brief.verdict = fmt::format(
+        "Misfit of priors alone: {} where noise makes 1, and {} without what the priors of K1_x, "
+        "K1_y and K1_z cost, which one cause moves.",
+        fits, number_text(identification::without_prior_cost(estimate).statistic_per_dof(), 3));
   else if (identification::misfit(estimate))
     brief.verdict = fmt::format(
         "Misfit: {} where noise makes 1: something is missing or wrong, and no number below is to "
@@ -162,7 +185,11 @@ InBrief in_brief(const CaseIdentification& id) {
     brief.verdict =
         fmt::format("Found: {} and {}{}; {}, {}.", counted(dwells.size(), "dwell"),
                     counted(id.study.test.ways.size(), "turn"), gaps_text(id.study), told, fits);
-  brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad : Tone::good;
+  const auto gravity = gravity_off(id);
+  brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad
+               : gravity                                       ? Tone::doubtful
+                                                               : Tone::good;
+  if (gravity) brief.more.add(Weight::wrong, "Gravity: " + common_scale_text(*gravity));
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
   if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");
