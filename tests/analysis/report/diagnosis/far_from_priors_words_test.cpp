@@ -32,7 +32,7 @@ diagnosis::Diagnosis tense(std::size_t param) {
   return d;
 }
 
-TEST(ShortAnswer, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAnyVerdict) {
+TEST(FarFromPriors, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAnyVerdict) {
   for (diagnosis::Diagnosis d :
        {tense(TermLibrary::find("D_F_y").value()), test::diagnosis(nominal())}) {
     d.remarks.emplace_back(remark::GimbalOffZero{"rec.csv:gimbal_middle: it reads 1 deg too much"});
@@ -46,7 +46,7 @@ TEST(ShortAnswer, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAnyVe
   }
 }
 
-TEST(ShortAnswer, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
+TEST(FarFromPriors, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   const auto M_y = TermLibrary::find("M_y").value();
   const auto d = tense(M_y);
   std::string said = report::brief_text(report::diagnosis_in_brief(d), 400);
@@ -79,7 +79,7 @@ TEST(ShortAnswer, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   EXPECT_TRUE(json::parse(report::to_json(other))["beyond_prior"].empty());
 }
 
-TEST(ShortAnswer, WhatIsUnexplainedLeavesRoomForThePriorAndTheNextStepSaysWhatAndWhere) {
+TEST(FarFromPriors, WhatIsUnexplainedLeavesRoomForThePriorAndTheNextStepSaysWhatAndWhere) {
   diagnosis::Diagnosis d = test::diagnosis(nominal());
   d.verdict = diagnosis::Verdict::unexplained;
   d.causes.clear();
@@ -112,7 +112,7 @@ TEST(ShortAnswer, WhatIsUnexplainedLeavesRoomForThePriorAndTheNextStepSaysWhatAn
 }
 
 /// Agreement that costs a parameter its prior is no plain agreement.
-TEST(ShortAnswer, TheHeadlineOfAgreementHasTheParametersThatLieFarFromTheirPriors) {
+TEST(FarFromPriors, TheHeadlineOfAgreementHasTheParametersThatLieFarFromTheirPriors) {
   diagnosis::Diagnosis d = tense(TermLibrary::find("M_y").value());
   report::InBrief brief = report::diagnosis_in_brief(d);
   EXPECT_TRUE(brief.verdict.starts_with(
