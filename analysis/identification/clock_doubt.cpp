@@ -61,12 +61,7 @@ struct Retimed {
 
 /// The factor that fits best, by the parabola of the cost, the steps ever smaller; nothing where
 /// there is no valley.
-std::optional<Retimed> retimed_valley(const mc::Study& study,
-                                      const std::vector<Recording>& recordings,
-                                      const FilterSpec& filter, double near, double step) {
-  const auto at = [&](double factor) {
-    return fitted(study, with_times(recordings, factor), filter, Result::estimates).estimate;
-  };
+std::optional<Retimed> retimed_valley(const FitAtTimes& at, double near, double step) {
   Retimed out{{near, 0.0, at(1.0).statistic_per_dof(), 0.0}, {}};
   for (const double finer : {1.0, 0.1, 0.01}) {
     const double h = finer * step;
@@ -83,12 +78,19 @@ std::optional<Retimed> retimed_valley(const mc::Study& study,
   return out;
 }
 
+/// The filter fitted to the recordings with their times so many times as long.
+FitAtTimes fit_of(const mc::Study& study, const std::vector<Recording>& recordings,
+                  const FilterSpec& filter) {
+  return [&](double factor) {
+    return fitted(study, with_times(recordings, factor), filter, Result::estimates).estimate;
+  };
+}
+
 /// Nothing, too, where with such times it would be no recording of this plan: it is ours to try
 /// them, and no fault of the file.
-std::optional<Retimed> retimed(const mc::Study& study, const std::vector<Recording>& recordings,
-                               const FilterSpec& filter, double near, double step) {
+std::optional<Retimed> retimed(const FitAtTimes& at, double near, double step) {
   try {
-    return retimed_valley(study, recordings, filter, near, step);
+    return retimed_valley(at, near, step);
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -109,7 +111,7 @@ std::optional<ClockDoubt> clock_doubt(const mc::Study& study,
   const auto common = common_scale(there, torquer_scales);
   if (!common) return std::nullopt;
   // Torquers are off by themselves: the Earth's rate tells.
-  const auto best = retimed(study, recordings, filter, 1.0 + common->value, common->sigma);
+  const auto best = retimed(fit_of(study, recordings, filter), 1.0 + common->value, common->sigma);
   if (!best) return std::nullopt;
   const double chance = stats::misfit_chance(best->doubt.chi2_per_dof_after,
                                              static_cast<double>(best->estimate.measured));
@@ -126,7 +128,8 @@ std::optional<ClockDoubt> clock_instead(const mc::Study& study,
   if (!(slower > 0.5 && slower < 2.0) || !(sigma > 0.0)) return std::nullopt;
   const EstimateResult there =
       fitted_at(other_latitude, study, recordings, filter, Result::estimates);
-  const auto best = retimed(study, recordings, filter, slower, first_step(sigma, slower - 1.0));
+  const auto best =
+      retimed(fit_of(study, recordings, filter), slower, first_step(sigma, slower - 1.0));
   if (!best) return std::nullopt;
   const double worse =
       (best->estimate.statistic - there.statistic) / std::max(1.0, there.statistic_per_dof());
@@ -134,28 +137,29 @@ std::optional<ClockDoubt> clock_instead(const mc::Study& study,
   return best->doubt;
 }
 
-std::optional<ClockDoubt> clock_of_misfit(const mc::Study& study,
-                                          const std::vector<Recording>& recordings,
-                                          const FilterSpec& filter, double promised) {
+std::optional<ClockDoubt> clock_of_misfit(const FitAtTimes& at, double promised) {
   constexpr double h = 1e-4;  // a clock is seldom off by more (9 s a day): there a fit is linear
   std::vector<double> costs;
   try {
-    costs = mc::run_campaign(3, [&](std::size_t k) {
-      const double factor = 1.0 + (static_cast<double>(k) - 1.0) * h;
-      return fitted(study, with_times(recordings, factor), filter, Result::estimates)
-          .estimate.statistic;
-    });
+    costs = mc::run_campaign(
+        3, [&](std::size_t k) { return at(1.0 + (static_cast<double>(k) - 1.0) * h).statistic; });
   } catch (const InputError&) {
     return std::nullopt;  // as of retimed()
   }
   const auto foot = foot_of(costs, h);
-  if (!foot || foot->fall < promised) return std::nullopt;
-  auto best = retimed(study, recordings, filter, 1.0 + foot->at, first_step(foot->sigma, foot->at));
+  if (!foot || foot->fall < promised || !(1.0 + foot->at > 0.0)) return std::nullopt;
+  auto best = retimed(at, 1.0 + foot->at, first_step(foot->sigma, foot->at));
   if (!best) return std::nullopt;
   const double gain =
       (costs[1] - best->estimate.statistic) / std::max(1.0, best->estimate.statistic_per_dof());
   best->doubt.weigh(gain);
   return best->doubt;
+}
+
+std::optional<ClockDoubt> clock_of_misfit(const mc::Study& study,
+                                          const std::vector<Recording>& recordings,
+                                          const FilterSpec& filter, double promised) {
+  return clock_of_misfit(fit_of(study, recordings, filter), promised);
 }
 
 void ClockDoubt::weigh(double chi2_above) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "core/estimate/estimate_result.hpp"
 #include "core/recording/recording.hpp"
 #include "mc/study/study.hpp"
 
@@ -46,10 +48,16 @@ std::optional<ClockDoubt> clock_instead(const mc::Study& study,
                                         const FilterSpec& filter, double other_latitude,
                                         double sigma);
 
-/// The clock that leaves least of the filter's misfit, whatever else may be behind that. Three
-/// fits, at the recorded times and a ten-thousandth to either side; the valley is followed only
-/// where their parabola promises to take `promised` off chi-square. Empty otherwise, and where the
-/// cost has no valley.
+/// A fit of a test with all its times `factor` times as long; its sigmas are not asked for. Called
+/// from several threads.
+using FitAtTimes = std::function<EstimateResult(double factor)>;
+
+/// The clock that leaves least of a misfit, whatever else may be behind that. Three fits, at the
+/// recorded times and a ten-thousandth to either side; the valley is followed only where their
+/// parabola promises to take `promised` off chi-square. Empty otherwise, and where the cost has no
+/// valley.
+std::optional<ClockDoubt> clock_of_misfit(const FitAtTimes& at, double promised);
+/// The same of a filter and recordings that were made ready.
 std::optional<ClockDoubt> clock_of_misfit(const mc::Study& study,
                                           const std::vector<Recording>& recordings,
                                           const FilterSpec& filter, double promised);

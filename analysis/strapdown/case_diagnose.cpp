@@ -3,6 +3,7 @@
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/diagnosis/doubts/site_doubt.hpp"
+#include "analysis/strapdown/case_times.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/sensed_diagnosis.hpp"
 #include "core/base/check.hpp"
@@ -120,6 +121,7 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
   d.patched = diagnosis::patched_filter(nominal, effects, d.nominal);
   if (other_equation) d.patched.coupling = facts(nominal.coupling).other.value_or(nominal.coupling);
   take_latitude(d, id);
+  take_times(d, id, nominal);
   return d;
 }
 

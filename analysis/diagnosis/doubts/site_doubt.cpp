@@ -34,9 +34,10 @@ bool has_no_usual_size(const search::Cause& cause) {
   });
 }
 
-/// Log odds of a latitude against the effects that were found: one study of 1000 says another
-/// latitude, and of the effects of the library one is as likely as another.
-double log_odds(const identification::LatitudeDoubt& doubt, const Diagnosis& d) {
+/// Log odds of another latitude, or of other times, against the effects that were found: one study
+/// of 1000 says another latitude, and one recording other times; of the effects of the library one
+/// is as likely as another. Infinite where none was found.
+double log_odds(double log_evidence, const Diagnosis& d) {
   std::size_t visible = 0;
   for (const search::CandidateScore& c : d.candidates) visible += c.dof > 0 ? 1 : 0;
   const double one_effect = std::log(inference::PosteriorPrior::library /
@@ -46,7 +47,7 @@ double log_odds(const identification::LatitudeDoubt& doubt, const Diagnosis& d) 
     const auto together = std::ranges::count(d.causes, c.set, &search::Cause::set);
     best = std::max(best, c.log_bayes + static_cast<double>(together) * one_effect);
   }
-  return doubt.log_evidence + std::log(SiteLimits::another) - best;
+  return log_evidence + std::log(SiteLimits::another) - best;
 }
 
 bool worth_asking(const Diagnosis& d) {
@@ -117,7 +118,7 @@ identification::LatitudeDoubt against_causes(identification::LatitudeDoubt doubt
   if (d.causes.empty()) return doubt;
   doubt.as_little_left = leaves_as_little(doubt.chi2_per_dof_after, d);
   if (!doubt.alone()) return doubt;
-  doubt.odds = std::exp(log_odds(doubt, d));
+  doubt.odds = std::exp(log_odds(doubt.log_evidence, d));
   doubt.less_likely = doubt.odds <= 1.0 && std::ranges::none_of(d.causes, has_no_usual_size);
   return doubt;
 }
@@ -162,22 +163,32 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
   return {alone, nullptr};
 }
 
-std::optional<remark::TimesInstead> times_instead(const mc::Study& study,
-                                                  const std::vector<Recording>& recordings,
+std::optional<remark::TimesInstead> times_instead(const ClockOfMisfit& clock_of_misfit,
                                                   const Diagnosis& d) {
-  if (d.verdict == Verdict::consistent || d.of_case) return std::nullopt;
+  if (d.verdict == Verdict::consistent) return std::nullopt;
   if (d.other_latitude && d.other_latitude->clock) return std::nullopt;
   const auto dof = static_cast<double>(d.fit.dof);
   const bool found = !d.causes.empty();
   const double gain = dof * (d.fit.chi2_per_dof_before - (found ? d.fit.chi2_per_dof_after : 1.0));
   if (!(gain > 0.0)) return std::nullopt;
-  const auto clock = identification::clock_of_misfit(study, recordings, d.nominal,
-                                                     inference::SiteLimits::promise * gain);
+  const auto clock = clock_of_misfit(inference::SiteLimits::promise * gain);
   if (!clock || !clock->evident()) return std::nullopt;
   const bool as_well = found ? leaves_as_little(clock->chi2_per_dof_after, d)
                              : stats::misfit_chance(clock->chi2_per_dof_after, dof) >=
                                    inference::SearchLimits::alpha;
-  return as_well ? std::optional(remark::TimesInstead{*clock}) : std::nullopt;
+  if (!as_well) return std::nullopt;
+  return remark::TimesInstead{*clock, std::exp(log_odds(clock->log_evidence, d))};
+}
+
+std::optional<remark::TimesInstead> times_instead(const mc::Study& study,
+                                                  const std::vector<Recording>& recordings,
+                                                  const Diagnosis& d) {
+  if (d.of_case) return std::nullopt;
+  return times_instead(
+      [&](double promised) {
+        return identification::clock_of_misfit(study, recordings, d.nominal, promised);
+      },
+      d);
 }
 
 }  // namespace drift::diagnosis

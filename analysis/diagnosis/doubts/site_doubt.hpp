@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,9 +54,17 @@ identification::LatitudeDoubt against_causes(identification::LatitudeDoubt doubt
 /// chance of SearchLimits::alpha or more. The clock is followed only where it promises a part
 /// (SiteLimits::promise) of what the causes gain, or of the whole misfit where there are none.
 /// Empty otherwise, of a test that lacks nothing, and where such times are told with another
-/// latitude. recordings: as they were diagnosed.
+/// latitude. With it go the odds of such times against the causes (TimesInstead). recordings: as
+/// they were diagnosed; of a unit on a case the next one asks.
 std::optional<remark::TimesInstead> times_instead(const mc::Study& study,
                                                   const std::vector<Recording>& recordings,
+                                                  const Diagnosis& diagnosis);
+
+/// The clock that leaves least of the misfit, where it promises as much off chi-square
+/// (identification::clock_of_misfit()).
+using ClockOfMisfit = std::function<std::optional<identification::ClockDoubt>(double promised)>;
+/// The same of any test.
+std::optional<remark::TimesInstead> times_instead(const ClockOfMisfit& clock_of_misfit,
                                                   const Diagnosis& diagnosis);
 
 }  // namespace drift::diagnosis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -115,6 +116,8 @@ struct MemoryOff {
 /// found, without any of that in the model; or where nothing was found, they explain it.
 struct TimesInstead {
   identification::ClockDoubt clock;
+  /// Of such times, in one recording of 1000, against the causes that were found.
+  double odds = std::numeric_limits<double>::infinity();
 };
 /// The magnetic field is that of a dipole: none was recorded or declared.
 struct FieldAssumed {

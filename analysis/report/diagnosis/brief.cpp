@@ -66,8 +66,10 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
   if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);
       !own.empty() && d.verdict != Verdict::consistent)
     return own;
-  if (d.verdict == Verdict::ambiguous && remark_in<remark::TimesInstead>(d) != nullptr)
-    return "Next: look up the sample interval of the log, before anything is added to the plan.";
+  if (d.verdict != Verdict::named && remark_in<remark::TimesInstead>(d) != nullptr)
+    return fmt::format(
+        "Next: look up the sample interval of the log, before anything is added to the {}.",
+        d.of_case ? "model" : "plan");
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)

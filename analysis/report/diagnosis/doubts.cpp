@@ -140,15 +140,25 @@ bool labels_are_late(const Diagnosis& d) {
   return samples != nullptr && identification::late_labels(samples->removed) > 0;
 }
 
+const remark::TimesInstead* times_beside_cause(const Diagnosis& d) {
+  const bool for_others = remark_in<remark::JustSignificantLeft>(d) ||
+                          remark_in<remark::LambdaNotSettled>(d) || remark_in<remark::OrNoise>(d) ||
+                          remark_in<remark::MemberNotConfirmed>(d) ||
+                          remark_in<remark::NotPredicted>(d);
+  if (d.verdict != Verdict::ambiguous || for_others || alternatives_of(d).size() != 1)
+    return nullptr;
+  return remark_in<remark::TimesInstead>(d);
+}
+
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   std::vector<std::pair<std::string, std::string>> all;
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
     all.emplace_back(beyond_its_prior, beyond_prior_text(*beyond) + ".");
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)
     all.emplace_back("Gravity", common_scale_text(*beyond->scales));
-  // Of one cause the sentence says it; behind several it would be cut off.
+  // Of one cause the verdict says it; behind several it would be cut off.
   if (const auto* times = remark_in<remark::TimesInstead>(d);
-      times != nullptr && d.verdict == Verdict::ambiguous)
+      times != nullptr && d.verdict == Verdict::ambiguous && times_beside_cause(d) == nullptr)
     all.emplace_back("Clock", times_in_brief(times->clock));
   if (const auto* off = remark_in<remark::MemoryOff>(d))
     all.emplace_back("Memory", memory_sentences(off->terms, off->gaps));

@@ -42,6 +42,9 @@ bool labels_are_late(const diagnosis::Diagnosis& diagnosis);
 std::vector<std::pair<std::string, std::string>> doubts_of(const diagnosis::Diagnosis& diagnosis);
 inline constexpr std::string_view beyond_its_prior = "Prior";  ///< heads that sentence
 
+/// Times that alone keep the only cause from being named: the verdict says so. Null otherwise.
+const diagnosis::remark::TimesInstead* times_beside_cause(const diagnosis::Diagnosis& diagnosis);
+
 /// `beyond_prior` of diagnosis.json: one object for each such parameter.
 Json beyond_prior_json(const diagnosis::Diagnosis& diagnosis);
 

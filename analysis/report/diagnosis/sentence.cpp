@@ -94,6 +94,8 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
                        decimal_text(noise->probability, 2));
   if (remark_in<remark::LambdaNotSettled>(d))
     return "its weight may still be the nominal one (3 sigma)";
+  if (const auto* times = times_beside_cause(d))
+    return times_as_little_text(times->clock, times->odds);
   return held_out_text(d, several);
 }
 

@@ -18,6 +18,9 @@ std::string clock_next(const identification::ClockDoubt& clock, std::string_view
 std::string times_instead_text(const identification::ClockDoubt& clock);
 /// The same without the fits, where there is no room for more.
 std::string times_in_brief(const identification::ClockDoubt& clock);
+/// "times that are all 0.2 % too long would leave as little (...)", of a cause that is not alone.
+/// odds: of the times against it.
+std::string times_as_little_text(const identification::ClockDoubt& clock, double odds);
 /// Factor and fits; null of none.
 Json times_json(const std::optional<identification::ClockDoubt>& clock);
 /// Of a doubt that has a clock; null of any other.
