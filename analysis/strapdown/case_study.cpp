@@ -12,6 +12,7 @@
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/dead_channels.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
+#include "analysis/strapdown/turn_scale.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/layout.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
@@ -141,6 +142,31 @@ void remark_gaps(const CaseTest& test, std::vector<std::string>& remarks) {
                   test.ways_with_gap, all, test.ways_with_gap == 1 ? "is" : "are"));
 }
 
+constexpr auto scale_factor = TermLibrary::index("s_x");
+
+/// 1 sigma of a gyro's scale factor, before it is known of which grade the unit is.
+double widest_scale(const mc::Study& study) {
+  double widest = 0.0;
+  for (std::size_t p = scale_factor; p < scale_factor + 3; ++p) {
+    widest = std::max(widest, consumer_prior(p).sigma());
+    if (!study.filters.empty())
+      widest = std::max(widest, study.filters.front().believed(p).sigma());
+  }
+  return widest;
+}
+
+/// The same of gyros x, y, z as they are fitted.
+Vec3 scales(const mc::Study& study, const CaseStudy& of) {
+  FilterSpec filter = study.filters.empty() ? FilterSpec{} : study.filters.front();
+  if (!of.compass.sees_earth) take_consumer_priors(filter);
+  Vec3 all;
+  for (int a = 0; a < 3; ++a)
+    all[a] = study.filters.empty()
+                 ? widest_scale(study)
+                 : filter.believed(scale_factor + static_cast<std::size_t>(a)).sigma();
+  return all;
+}
+
 bool levelled_by_calibrated(const CaseStudy& of) {
   return of.start[TermLibrary::index("K0_x")] != 0.0;
 }
@@ -183,6 +209,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
       !wrong.empty())
     throw InputError(ExitCode::recording, wrong);
   require_gyro_unit(signals, out.search.dwells, study.site, out.source);
+  require_turn_scale(signals, out.search.dwells, study.site, out.source, widest_scale(study));
   remark_lone_samples(signals, recording, out.remarks);
   out.noise = noise_of(recording, out.search);
   // Each round knows better how the Earth turned the unit during the test.
@@ -197,6 +224,9 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   }
   if (!out.compass.sees_earth) lay_out_one_way(study, signals, out);
   remark_gaps(out.test, out.remarks);
+  if (const std::string off = turn_scale_remark(signals, out.search.dwells, scales(study, out));
+      !off.empty())
+    out.remarks.push_back(off);
   for (const CovariateSpec& c : known_covariates)
     if (!c.is_vector()) take_number(c, recording, out.test);
   return out;

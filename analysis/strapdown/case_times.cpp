@@ -1,6 +1,6 @@
 #include "analysis/strapdown/case_times.hpp"
 
-#include "analysis/diagnosis/site_doubt.hpp"
+#include "analysis/diagnosis/doubts/site_doubt.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/fitted.hpp"
 #include "analysis/strapdown/walking_drift.hpp"
