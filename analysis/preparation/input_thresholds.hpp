@@ -111,6 +111,12 @@ struct PlanLimits {
   /// Of that: how near a command must be to Earth rate in the meridian to be that of a latitude,
   /// and how far from the site's for it to be another one (0.04 deg at Earth rate).
   static constexpr double meridian = 0.02, latitude = 0.01;
+  /// Of what a factor on the commands makes of them: how much may be left beside it. And the part
+  /// by which a factor may miss that of a unit; the nearest two (60 and 57.3) differ by 4.5 %.
+  /// Test: CommandCheck.*
+  static constexpr double factor_left = 0.05, unit_room = 0.02;
+  static constexpr double scale_sigmas =
+      5.0;  ///< of the study's own prior: a factor beyond is told
   /// Without recorded commands: part of the difference of both laws within which the platform moves
   /// by the other one, and [deg/h] below which drift could look like that difference (the prior of
   /// drift is 1 deg/h).

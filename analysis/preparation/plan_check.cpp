@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
+#include "analysis/preparation/commands/command_check.hpp"
 #include "analysis/preparation/dwell_turn.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/base/words.hpp"
@@ -19,7 +19,6 @@ namespace drift::preparation {
 namespace {
 
 constexpr double deg_per_h = unit::deg_per_h.to_si;
-constexpr double same_command = PlanLimits::command_deg_per_h * deg_per_h;  // [rad/s]
 
 CommandLaw other_than(CommandLaw law) {
   return law == CommandLaw::level ? CommandLaw::free : CommandLaw::level;
@@ -61,67 +60,6 @@ void check_dwells(const mc::Study& study, const std::string& source, const Timel
                   "are used; check "
                   "plan.dwell if that is not what was meant",
                   source, fmt::join(texts, ", "), more));
-}
-
-Vec3 command_of(CommandLaw law, const Position& p, const Site& site) {
-  return law == CommandLaw::level ? Vec3(p.R_lp.transpose() * site.omega_ie_l()) : Vec3::Zero();
-}
-
-/// Commands in the dwells against those of the plan's law.
-void check_commands(const mc::Study& study, const std::string& source, const Timeline& timeline,
-                    const std::vector<Dwell>& dwells, std::vector<std::string>& remarks) {
-  std::array<std::vector<int>, 2> as_other;  // by the plan's law
-  std::vector<int> elsewhere, neither;
-  double sine = 0.0, farthest = 0.0;
-  for (const Dwell& d : dwells) {
-    const Position& p = study.plan.positions[static_cast<std::size_t>(d.position)];
-    Vec3 mean = Vec3::Zero();
-    for (const std::size_t k : d.rows)
-      mean += timeline.intervals[k].omega_cmd_p / static_cast<double>(d.rows.size());
-    const CommandLaw other = other_than(p.mode);
-    const double off = (mean - command_of(p.mode, p, study.site)).norm();
-    // Earth rate, but of another latitude: as long, and in the meridian.
-    const Vec3 local = p.R_lp * mean;
-    const bool meridian =
-        p.mode == CommandLaw::level &&
-        std::abs(mean.norm() - detail::earth_rate) < PlanLimits::meridian * same_command &&
-        std::abs(local[1]) < PlanLimits::meridian * same_command;
-    if (meridian && off > PlanLimits::latitude * same_command) {
-      elsewhere.push_back(d.position);
-      sine += local[2] / mean.norm();
-    } else if (off < same_command) {
-      continue;
-    } else if ((mean - command_of(other, p, study.site)).norm() < same_command) {
-      as_other[p.mode == CommandLaw::level ? 1 : 0].push_back(d.position);
-    } else {
-      neither.push_back(d.position);
-      farthest = std::max(farthest, off);
-    }
-  }
-  for (const CommandLaw law : {CommandLaw::free, CommandLaw::level}) {
-    const auto& positions = as_other[law == CommandLaw::level ? 1 : 0];
-    if (positions.empty()) continue;
-    remarks.push_back(fmt::format(
-        "{}: the commands in {} are those of a {} dwell, the plan says mode = \"{}\". The recorded "
-        "commands are "
-        "used; correct plan.mode if that is not what was meant",
-        source, numbered(positions), key_of(other_than(law)), key_of(law)));
-  }
-  if (!elsewhere.empty())
-    remarks.push_back(
-        fmt::format("{}: the commands in {} are the Earth rate at latitude {:.3f} deg, [site] says "
-                    "{:.3f} deg. Check [site] "
-                    "latitude",
-                    source, numbered(elsewhere),
-                    std::asin(std::clamp(sine / static_cast<double>(elsewhere.size()), -1.0, 1.0)) /
-                        detail::deg,
-                    study.site.latitude / detail::deg));
-  if (!neither.empty())
-    remarks.push_back(
-        fmt::format("{}: the commands in {} are up to {:.3g} deg/h from those of the plan, and of "
-                    "neither law. The recorded "
-                    "commands are used",
-                    source, numbered(neither), farthest / deg_per_h));
 }
 
 /// Without recorded commands the plan's law is believed; the platform shows whether it was so.
@@ -224,7 +162,7 @@ void check_plan(const mc::Study& study, const Recording& recording,
   const Measurements measured = measurements_of(recording, study.readout);
   check_dwells(study, source, timeline, dwells, remarks);
   if (recording.find("cmd_x") != nullptr)
-    check_commands(study, source, timeline, dwells, remarks);
+    check_commands(study, recording, timeline, measured, dwells, remarks, wrong);
   else
     check_law(study, source, timeline, measured, dwells, wrong);
   check_turned_within(source, recording, timeline, measured, dwells, wrong);

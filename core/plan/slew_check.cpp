@@ -109,9 +109,7 @@ class Slews {
 
 /// The one unit of rates in which the commands would be those that the platform obeyed.
 std::optional<Unit> unit_of_commands(const Slews& slews, const Unit& said) {
-  constexpr Unit units[] = {"rad/s"_unit, "deg/s"_unit, "arcmin/s"_unit, "arcsec/s"_unit,
-                            "deg/h"_unit, "rad/h"_unit, "mrad/s"_unit};
-  for (const Unit& unit : units)
+  for (const Unit& unit : rate_units)
     if (slews.usual_mismatch({}, {}, unit.to_si / said.to_si) < same_turn) return unit;
   return std::nullopt;
 }

@@ -2,12 +2,17 @@
 
 #include <optional>
 
+#include "core/base/units.hpp"
 #include "core/physics/earth.hpp"
 #include "core/plan/row_mistake.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/recording.hpp"
 
 namespace drift {
+
+/// Units that the rates of commands may be in.
+inline constexpr Unit rate_units[] = {"rad/s"_unit, "deg/s"_unit, "arcmin/s"_unit, "arcsec/s"_unit,
+                                      "deg/h"_unit, "rad/h"_unit, "mrad/s"_unit};
 
 /// Attitude of the platform against the local axes, as gimbal angles [rad] and the heading of the
 /// case in a row show it.
