@@ -50,6 +50,11 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
   if (d.heading_doubt) return corrected_text(*d.heading_doubt, "diagnose");
   if (d.site_doubt && d.site_doubt->clock) return clock_next(*d.site_doubt->clock, "diagnose");
   if (d.site_doubt) return latitude_next(*d.site_doubt, "diagnose");
+  if (const auto reversed = reversed_commands(d); !reversed.empty())
+    return fmt::format(
+        "Next: correct the sign of {} in the recording, or in [recording] columns of the study, "
+        "and diagnose again.",
+        listed(reversed, "and"));
   if (const std::string priors = priors_at_fault_text(d); !priors.empty())
     return d.causes.empty()
                ? fmt::format(

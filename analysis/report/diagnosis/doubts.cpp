@@ -1,8 +1,10 @@
 #include "analysis/report/diagnosis/doubts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/alternative_words.hpp"
 #include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/diagnosis/verdict_openings.hpp"
@@ -12,6 +14,7 @@
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/units.hpp"
+#include "core/base/words.hpp"
 
 namespace drift::report {
 using namespace diagnosis;
@@ -27,7 +30,26 @@ std::vector<std::string> keys_of(const remark::BeyondPrior& r) {
   return keys;
 }
 
+/// "cmd_x" of s_x at -2.
+std::vector<std::string> reversed_by(const remark::BeyondPrior& r) {
+  std::vector<std::string> columns;
+  for (const remark::BeyondPrior::Parameter& p : r.parameters) {
+    const ParameterEstimate& e = p.estimate;
+    const std::string key = parameter_key(e.param);
+    if ((key == "s_x" || key == "s_y" || key == "s_z") &&
+        std::abs(e.value + 2.0) <=
+            inference::FitLimits::beyond_prior * std::hypot(e.sigma, e.prior_sigma))
+      columns.push_back("cmd" + key.substr(1));
+  }
+  return columns;
+}
+
 }  // namespace
+
+std::vector<std::string> reversed_commands(const Diagnosis& d) {
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  return beyond == nullptr ? std::vector<std::string>{} : reversed_by(*beyond);
+}
 
 std::string priors_at_fault_text(const Diagnosis& d) {
   const auto* beyond = remark_in<remark::BeyondPrior>(d);
@@ -81,6 +103,10 @@ std::string beyond_prior_text(const remark::BeyondPrior& r) {
                         number_text(e.prior_mean / unit), number_text(e.prior_sigma / unit)));
   const std::string chance =
       fmt::format("chance of that for any of {} parameters: {}", r.of, p_text(far.chance));
+  if (const auto reversed = reversed_by(r); !reversed.empty())
+    return fmt::format("The fit takes {} {}{} ({}): a scale of -2 is a gain of -1, the sign of {}",
+                       listed_up_to(keys, most_keys), keys.size() > 1 ? "up to " : "", where,
+                       chance, listed(reversed, "and"));
   return keys.size() > 1
              ? fmt::format(
                    "The fit takes {} up to {} ({}): the priors are wrong, or these parameters take "

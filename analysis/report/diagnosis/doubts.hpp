@@ -23,6 +23,10 @@ std::string wrong_priors_text(const diagnosis::Diagnosis& diagnosis);
 /// recording that is consistent otherwise; empty where no parameter lies too far from its prior.
 std::string but_far_from_priors(const diagnosis::Diagnosis& diagnosis);
 
+/// Columns of commands whose torquers' scale the fit takes to -2 within 5 sigma of fit and prior
+/// together: a gain of -1, which is no scale but the sign of the column.
+std::vector<std::string> reversed_commands(const diagnosis::Diagnosis& diagnosis);
+
 /// A verdict of its own: nothing that is said of causes holds for another place on the Earth.
 std::string site_text(const identification::LatitudeDoubt& doubt);
 /// The same where the test was diagnosed at that latitude (Diagnosis::there).

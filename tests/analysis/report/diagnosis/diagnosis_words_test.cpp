@@ -67,6 +67,28 @@ TEST(DiagnosisWords, BesideAxesInHoursAWindowIsToldInHoursToo) {
       << said();
 }
 
+TEST(DiagnosisWords, ATorquerScaleOfMinusTwoIsTheSignOfTheCommands) {
+  const auto with = [](double scale) {
+    diagnosis::Diagnosis d;
+    d.verdict = diagnosis::Verdict::unexplained;
+    remark::BeyondPrior beyond;
+    beyond.parameters = {
+        {{TermLibrary::find("s_x").value(), 0.0, scale, 5.8e-4, 0.0, 1e-3}, 2001.4, 1e-300}};
+    beyond.of = 42;
+    beyond.explains = true;
+    d.remarks = {beyond};
+    return report::brief_text(report::diagnosis_in_brief(d), 400);
+  };
+  const std::string reversed = with(-2.001417);
+  EXPECT_NE(reversed.find("Next: correct the sign of cmd_x in the recording"), std::string::npos)
+      << reversed;
+  EXPECT_NE(reversed.find("a scale of -2 is a gain of -1, the sign of cmd_x"), std::string::npos)
+      << reversed;
+  EXPECT_EQ(reversed.find("widen"), std::string::npos) << reversed;
+  EXPECT_NE(with(-1.9).find("Next: correct the prior of s_x, or widen it"), std::string::npos)
+      << with(-1.9);
+}
+
 TEST(DiagnosisWords, AFormThatIsATermOfTheLibraryIsCalledByItsName) {
   Proposal p;
   p.acts_on = "drift.y";
