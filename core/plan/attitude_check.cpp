@@ -209,14 +209,6 @@ AngleUnits units_of(const Recording& recording) {
   return units;
 }
 
-/// A middle gimbal does not come past 90 deg: one that shows more than a turn is in another unit,
-/// though whole turns may hide that.
-std::optional<std::size_t> row_beyond_a_turn(const std::vector<Sight>& sights) {
-  for (const Sight& s : sights)
-    if (std::abs(s.seen[1]) > 361.0 * detail::deg) return s.row;
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
@@ -281,12 +273,9 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
     all.push_back({gimbals.wrong.front().row,
                    gimbals.reason.value_or(elsewhere(gimbals, of_gimbals, "gimbal angles are") +
                                            another_unit)});
-  if (const auto row = row_beyond_a_turn(gimbals.sights); row && gimbals.wrong.empty())
-    all.push_back({*row,
-                   "gimbal_middle shows more than a turn (expected at most 90 deg to either "
-                   "side, or 0 to 360 deg). " +
-                       middle_slip(gimbals.sights, units_of(recording))
-                           .value_or("Correct its unit, or which column it is")});
+  if (gimbals.wrong.empty())
+    if (auto beyond = middle_beyond_a_turn(gimbals.sights, units_of(recording)))
+      all.push_back(std::move(*beyond));
   std::ranges::stable_sort(all, {}, &RowMistake::row);
   return all;
 }

@@ -231,8 +231,27 @@ std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const A
   return std::nullopt;
 }
 
-std::optional<std::string> middle_slip(const std::vector<Sight>& sights, const AngleUnits& units) {
-  return in_another_unit(sights, 2U, units);
+std::optional<RowMistake> middle_beyond_a_turn(const std::vector<Sight>& sights,
+                                               const AngleUnits& units) {
+  constexpr double turn = 360.0 * detail::deg, room = detail::deg;
+  const auto beyond = std::ranges::find_if(
+      sights, [](const Sight& s) { return std::abs(s.seen[1]) > turn + room; });
+  if (beyond == sights.end()) return std::nullopt;
+  std::string advice = "Correct its unit, or which column it is";
+  const auto middle = [](const Sight& s) { return s.seen[1]; };
+  const auto [least, most] = std::ranges::minmax(sights, {}, middle);
+  const double turns = std::floor((middle(least) + 0.25 * turn + room) / turn);
+  if (const auto unit = in_another_unit(sights, 2U, units))
+    advice = *unit;
+  else if (middle(most) - turns * turn < turn + room)
+    advice = fmt::format(
+        "Take the whole turns off, or say so in the study: [recording] offset = {{ gimbal_middle = "
+        "\"{:.0f} deg\" }}",
+        -360.0 * turns);
+  return RowMistake{beyond->row,
+                    "gimbal_middle shows more than a turn (expected at most 90 deg to either side, "
+                    "or 0 to 360 deg). " +
+                        advice};
 }
 
 }  // namespace drift

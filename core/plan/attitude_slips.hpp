@@ -9,6 +9,7 @@
 
 #include "core/base/linalg.hpp"
 #include "core/base/units.hpp"
+#include "core/plan/row_mistake.hpp"
 
 namespace drift {
 
@@ -51,8 +52,9 @@ std::string unit_there(const std::vector<Sight>& sights, const AngleUnits& units
 /// position into place; simpler explanations come first.
 std::optional<std::string> slip_behind(const std::vector<Sight>& sights, const AngleUnits& units);
 
-/// The unit in which the middle gimbal would show the plan, in words: of angles whose whole turns
-/// hide that it is in another one.
-std::optional<std::string> middle_slip(const std::vector<Sight>& sights, const AngleUnits& units);
+/// A middle gimbal does not come past 90 deg: one that shows more than a turn is in another unit,
+/// though whole turns may hide that, or its turns are counted from elsewhere. What to do, in words.
+std::optional<RowMistake> middle_beyond_a_turn(const std::vector<Sight>& sights,
+                                               const AngleUnits& units);
 
 }  // namespace drift

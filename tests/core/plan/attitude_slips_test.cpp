@@ -45,6 +45,11 @@ TEST(AttitudeSlips, TriesUnitsAndHeadingsBeforeItGivesUp) {
                 for (double& v : s.column("gimbal_middle")) v += 14.0 * std::numbers::pi;
               }),
               "more than a turn");
+  for (const int turns : {1, -1, 7})
+    expect_part(said_of([=](Scene& s) {
+                  for (double& v : s.column("gimbal_middle")) v += 2.0 * turns * std::numbers::pi;
+                }),
+                fmt::format("offset = {{ gimbal_middle = \"{} deg\" }}", -360 * turns).c_str());
   expect_part(said_of(times({"case_heading"}, -1.0)), "case_heading = \"-case_heading\"");
   expect_part(said_of(times({"case_heading"}, detail::deg)),
               "case_heading is in another unit: the numbers look like [rad], not [deg]");
