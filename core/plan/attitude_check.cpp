@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/physics/gimbals.hpp"
+#include "core/plan/attitude/rotation_order.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/late_rows.hpp"
@@ -247,12 +248,16 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
         {gimbals.wrong.front().row,
          first_rows_text(gimbals.wrong.size(), "the numbers of the positions change a row early")}};
   if (auto way = rows_of_others(recording, acc, gimbals)) return {*way};
-  if (!gimbals.wrong.empty() && !gimbals.reason)
-    if (const auto slip = slip_behind(gimbals.sights, units_of(recording)))
+  if (!gimbals.wrong.empty() && !gimbals.reason) {
+    auto slip = slip_behind(gimbals.sights, units_of(recording));
+    if (!slip && acc.wrong.empty() && !acc.sights.empty())
+      slip = rotation_order_behind(gimbals.sights);
+    if (slip)
       gimbals.reason = fmt::format(
           "in {} of {} positions the gimbal angles do not show the attitude of the plan (expected "
           "within {:.0f} deg); all would if this were so: {}",
           gimbals.wrong.size(), gimbals.sights.size(), largest_mismatch / detail::deg, *slip);
+  }
   const auto elsewhere = [&](const Shown& s, Mismatch mismatch, const char* what) {
     return elsewhere_text(plan, s.wrong, s.sights.size(), mismatch, what,
                           advice_for(recording, plan, timeline.site, s.sights, mismatch));
