@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/physics/gimbals.hpp"
+#include "core/plan/attitude/early_rows.hpp"
 #include "core/plan/attitude/rotation_order.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/plan/case_heading.hpp"
@@ -278,6 +279,8 @@ std::vector<RowMistake> attitude_mistakes(const Recording& recording, const Test
     all.push_back({gimbals.wrong.front().row,
                    gimbals.reason.value_or(elsewhere(gimbals, of_gimbals, "gimbal angles are") +
                                            another_unit)});
+  if (acc.wrong.empty() && gimbals.wrong.empty())
+    if (auto early = early_columns(recording, timeline)) all.push_back(std::move(*early));
   if (gimbals.wrong.empty())
     if (auto beyond = middle_beyond_a_turn(gimbals.sights, units_of(recording)))
       all.push_back(std::move(*beyond));

@@ -15,7 +15,8 @@ namespace drift {
 /// the case brings all positions into place, that is said. Where both kinds agree with each other
 /// and not with the plan, it is one mistake. Where the platform is slewed from position to position
 /// it should turn as commanded (slew_mistake()); then accelerometers should show Up where the
-/// gimbals have it, whatever the drift.
+/// gimbals have it, whatever the drift. Columns that show the next position in last rows
+/// (early_columns()) are a mistake as well.
 std::vector<RowMistake> attitude_mistakes(const Recording& recording, const TestPlan& plan,
                                           const Timeline& timeline);
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -16,13 +16,14 @@
 namespace drift {
 namespace {
 
-/// In how many last rows of positions a column tells whose it is, and in how many of these it reads
-/// as the next position.
+/// The last rows of positions in which a column tells whose it is, by number, and those of them in
+/// which it reads as the next position.
 struct LastRows {
-  std::size_t telling = 0, as_next = 0, first = 0;  ///< the first row that reads so
+  std::size_t telling = 0;
+  std::vector<std::size_t> as_next{};
 
-  bool early() const { return telling >= fewest_sights && as_next == telling; }
-  bool right() const { return telling >= fewest_sights && as_next == 0; }
+  bool early() const { return telling > 0 && as_next.size() == telling; }
+  bool right() const { return telling >= fewest_sights && as_next.empty(); }
 };
 
 using LastRowsOfThree = std::array<LastRows, 3>;
@@ -53,9 +54,8 @@ LastRowsOfThree last_rows(const Recording& recording, const Timeline& timeline,
       if (reads_apart((*own)[k], (*other)[k], angles) < largest_mismatch) continue;
       LastRows& column = all[i];
       ++column.telling;
-      if (!(reads_apart((*at)[k], (*other)[k], angles) < reads_apart((*at)[k], (*own)[k], angles)))
-        continue;
-      if (column.as_next++ == 0) column.first = last;
+      if (reads_apart((*at)[k], (*other)[k], angles) < reads_apart((*at)[k], (*own)[k], angles))
+        column.as_next.push_back(last);
     }
   }
   return all;
@@ -65,7 +65,7 @@ LastRowsOfThree last_rows(const Recording& recording, const Timeline& timeline,
 bool all_right(const LastRowsOfThree& columns) {
   bool right = false;
   for (const LastRows& c : columns) {
-    if (c.as_next > 0) return false;
+    if (!c.as_next.empty()) return false;
     right = right || c.right();
   }
   return right;
@@ -80,20 +80,20 @@ std::optional<RowMistake> early_columns(const Recording& recording, const Timeli
     const LastRowsOfThree& suspect = acc ? of_acc : of_gimbals;
     if (!all_right(acc ? of_gimbals : of_acc)) continue;
     std::vector<std::string_view> names;
-    std::size_t first = recording.rows(), positions = 0;
+    std::set<std::size_t> rows;
     for (std::size_t i = 0; i < 3; ++i) {
       if (!suspect[i].early()) continue;
       names.push_back((acc ? accelerometer_channels : gimbal_channels).names[i]);
-      first = std::min(first, suspect[i].first);
-      positions = std::max(positions, suspect[i].as_next);
+      rows.insert(suspect[i].as_next.begin(), suspect[i].as_next.end());
     }
-    if (names.empty()) continue;
+    if (rows.size() < fewest_sights) continue;
     const bool one = names.size() == 1;
     return RowMistake{
-        first, fmt::format("the last row of {} positions already shows the attitude of the next: "
-                           "column{} {} stand{} a row early (expected readings and number of one "
-                           "instant in a row). Correct the export",
-                           positions, one ? "" : "s", fmt::join(names, ", "), one ? "s" : "")};
+        *rows.begin(),
+        fmt::format("the last row of {} positions already shows the attitude of the next: "
+                    "column{} {} stand{} a row early (expected readings and number of one "
+                    "instant in a row). Correct the export",
+                    rows.size(), one ? "" : "s", fmt::join(names, ", "), one ? "s" : "")};
   }
   return std::nullopt;
 }
