@@ -44,6 +44,7 @@ class WorkerStore::Writer : public WorkerFile {
     describe();
     remove_damaged();
     remove_damaged_sessions();
+    kept_.mend();
     all.commit();
   }
 
@@ -70,7 +71,22 @@ class WorkerStore::Writer : public WorkerFile {
 
   void insert(std::span<const StoredBlock> blocks) {
     Transaction all(db_);
-    for (const StoredBlock& b : blocks) insert(b);
+    for (const StoredBlock& b : blocks) {
+      insert(b);
+      kept_.forget(key_of(b.block));
+    }
+    all.commit();
+  }
+
+  void keep(std::span<const StoredBlock> parts) {
+    Transaction all(db_);
+    kept_.keep(parts);
+    all.commit();
+  }
+
+  void forget_kept() {
+    Transaction all(db_);
+    kept_.forget_all();
     all.commit();
   }
 
@@ -79,7 +95,8 @@ class WorkerStore::Writer : public WorkerFile {
   bool is_foreign() {
     Statement query = db_.prepare(
         "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite%' AND "
-        "name NOT IN ('study', 'sessions', 'columns', 'failures', 'moments', 'blocks')");
+        "name NOT IN ('study', 'sessions', 'columns', 'failures', 'moments', 'blocks', 'partial', "
+        "'partial_failures')");
     return query.step() && query.integer(0) > 0;
   }
 
@@ -202,6 +219,7 @@ class WorkerStore::Writer : public WorkerFile {
     }
   }
 
+  KeptRuns kept_{db_, *manifest_};
   std::size_t removed_ = 0;
 };
 
@@ -251,6 +269,8 @@ void WorkerStore::set_aside() {
         writer_->insert(std::span(&*block, 1));
         ++saved;
       }
+    std::size_t damaged = 0;
+    writer_->keep(old.kept([](const BlockKey&) { return true; }, damaged));
   } catch (const InputError& error) {
     if (error.code() != ExitCode::store) throw;
   }
@@ -268,6 +288,12 @@ void WorkerStore::end_session(int exit_code) {
 }
 void WorkerStore::commit(std::span<const StoredBlock> blocks) {
   writer_->insert(blocks);
+}
+void WorkerStore::keep(std::span<const StoredBlock> parts) {
+  if (!parts.empty()) writer_->keep(parts);
+}
+void WorkerStore::forget_kept() {
+  writer_->forget_kept();
 }
 
 }  // namespace drift::mc

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mc/store/kept_runs.hpp"
 #include "mc/store/manifest.hpp"
 #include "mc/store/store_database.hpp"
 #include "mc/store/stored_block.hpp"
@@ -44,6 +45,7 @@ struct BlockEntry {
 ///   blocks    point, first_run, runs, failed, CPU seconds, checksum, payload (block_codec.hpp)
 ///   failures  block, point, run, status, cause, t_s, seconds
 ///   moments   block, number, n, mean, m2: of the runs that are ok, finite values only, SI
+/// and, while blocks are unfinished after a stop, those of kept_runs.hpp, which are no results.
 /// Index `listing` repeats of `blocks` all but times, checksum and payload: who lists a file reads
 /// it in place of 6 % of the file. A file without it is listed by the table, and gets it from its
 /// next writer. All but `blocks` and `failures` repeat what stands elsewhere; misfits() compares
@@ -59,6 +61,8 @@ class WorkerFile {
   std::vector<BlockEntry> entries(std::int64_t after_id, bool* damaged = nullptr);
   /// A block, or nothing if it is damaged.
   std::optional<StoredBlock> read(const BlockEntry& entry);
+  /// Runs of unfinished blocks (kept_runs.hpp); `damaged`: how many parts of them are left out.
+  std::vector<StoredBlock> kept(const KeptRuns::Wanted& wanted, std::size_t& damaged);
   std::vector<Session> sessions();
   /// Tables that say something else than the manifest and the blocks, a line each: of what others
   /// read in the file, nothing is believed unseen.
@@ -113,7 +117,12 @@ class WorkerStore {
   void begin_session(std::uint64_t runs);
   void end_session(int exit_code);
   /// Brings blocks to the disk in one transaction: each is there as a whole or not at all.
+  /// What was kept of their runs goes with it.
   void commit(std::span<const StoredBlock> blocks);
+  /// Keeps runs of blocks that are not finished, for a session that goes on with them.
+  void keep(std::span<const StoredBlock> parts);
+  /// Nothing is left to go on with.
+  void forget_kept();
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

@@ -67,6 +67,10 @@ std::optional<StoredBlock> WorkerFile::read(const BlockEntry& entry) {
   return steadily([&] { return take(entry); });
 }
 
+std::vector<StoredBlock> WorkerFile::kept(const KeptRuns::Wanted& wanted, std::size_t& damaged) {
+  return steadily([&] { return KeptRuns(db_, *manifest_).read(wanted, damaged); });
+}
+
 std::vector<Session> WorkerFile::sessions() {
   return steadily([this] { return all_sessions(); });
 }

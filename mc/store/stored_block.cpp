@@ -7,6 +7,12 @@
 
 namespace drift::mc {
 
+std::uint64_t runs_of(const std::vector<StoredBlock>& blocks) {
+  std::uint64_t runs = 0;
+  for (const StoredBlock& b : blocks) runs += b.block.status.size();
+  return runs;
+}
+
 std::string encode(const std::vector<Failure>& failures) {
   std::string out;
   for (const Failure& f : failures)

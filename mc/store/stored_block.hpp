@@ -30,6 +30,8 @@ struct StoredBlock {
   std::vector<Failure> failures;  ///< in order of runs
 };
 
+std::uint64_t runs_of(const std::vector<StoredBlock>& blocks);
+
 /// What a failure says of the result (all but the time it took), for the checksum.
 std::string encode(const std::vector<Failure>& failures);
 

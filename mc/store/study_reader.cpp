@@ -128,6 +128,33 @@ std::optional<StoredBlock> StudyReader::read(std::size_t point, std::uint64_t fi
   return best;
 }
 
+std::vector<StoredBlock> StudyReader::kept(const WantedPlace& wanted) {
+  const std::uint64_t size = manifest_->identity.block_size;
+  const auto is_wanted = [&](const BlockKey& part) {
+    const std::uint64_t first = part.first - part.first % size;
+    const BlockEntry* stored = listed(part.point, first);
+    if (stored != nullptr && first + stored->key.count >= part.first + part.count) return false;
+    return !wanted || wanted(part.point, first);
+  };
+  std::vector<StoredBlock> all;
+  for (const std::string& path : paths_) {
+    const auto& file = sources_.at(path).file;
+    if (!file) continue;
+    std::size_t damaged = 0;
+    for (StoredBlock& part : file->kept(is_wanted, damaged)) all.push_back(std::move(part));
+    if (damaged > 0)
+      note(fmt::format(
+          "{}: of what was kept of unfinished blocks {} damaged; those runs are "
+          "executed again",
+          path, damaged == 1 ? std::string("1 part is") : fmt::format("{} parts are", damaged)));
+  }
+  const auto key = [](const StoredBlock& part) { return key_of(part.block); };
+  std::ranges::stable_sort(all, {}, key);
+  const auto same = [&](const StoredBlock& a, const StoredBlock& b) { return key(a) == key(b); };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
 void StudyReader::each_result(const StopRules& rules, const Visitor& visit) {
   for (std::size_t p = 0; p < manifest_->points.size(); ++p) each_result(rules, p, visit);
 }

@@ -45,6 +45,12 @@ class StudyReader {
       std::size_t point, std::uint64_t first,
       const std::function<void(const std::string& file, const std::optional<StoredBlock>&)>& visit);
 
+  /// Runs of blocks that are not stored whole, kept by sessions that were stopped in them: no
+  /// results. In order of points and runs; of equal parts one. `wanted`: blocks by their place, all
+  /// unless given.
+  using WantedPlace = std::function<bool(std::size_t point, std::uint64_t first)>;
+  std::vector<StoredBlock> kept(const WantedPlace& wanted = {});
+
   using Visitor = std::function<void(const StoredBlock&)>;
   /// The results of all points in order: of every point the blocks up to the one with which the
   /// stop rule had enough, or all. Blocks beyond are surplus that parallel workers may have
