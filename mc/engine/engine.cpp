@@ -9,6 +9,7 @@
 
 #include "mc/engine/block_board.hpp"
 #include "mc/engine/block_queue.hpp"
+#include "mc/engine/outcome_of_ranks.hpp"
 #include "mc/engine/rule_follower.hpp"
 #include "mc/engine/stop_signals.hpp"
 #include "mc/engine/work_plan.hpp"
@@ -36,11 +37,15 @@ class Engine {
         store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
         reader_(folder),
         rules_(work.stop_rules, options.runs, reader_),
-        plan_(work, options, ranks, reader_, rules_) {}
+        plan_(work, options, ranks, reader_, rules_),
+        board_([this] { return plan_.next(); }, columns()) {}
 
   StudyOutcome run() {
     store_.begin_session(options_.runs);
     plan_.make();
+    std::vector<StoredBlock> parts = plan_.kept();
+    kept_before_ = runs_of(parts);
+    board_.go_on_from(std::move(parts), reader_.manifest().identity.block_size);
     execute();
     if (ranks_.largest(stop_ != none) == 0 && plan_.mend()) execute();
     return finish();
@@ -50,12 +55,26 @@ class Engine {
   enum Stop : int { none, asked, full_time, failed_run, elsewhere, broken };
 
   void execute() {
-    BlockBoard board([this] { return plan_.next(); }, columns());
     const ThreadCount told(options_.threads);  // one thread: runs spread nothing either
     const int threads = usual_threads();
     require_threads(threads);
 #pragma omp parallel num_threads(threads)
-    work_through(board);
+    work_through();
+    if (stop_ != none && stop_ != broken) keep();
+  }
+
+  /// A session may be shorter than a block: what it executed of one is where the next goes on. Only
+  /// the run at which `fail_fast` stops is left out, so that the same call stops at it again.
+  void keep() {
+    try {
+      const auto parts = board_.unfinished(stop_ == failed_run ? BlockBoard::Failed::left_out
+                                                               : BlockBoard::Failed::kept);
+      store_.keep(parts);
+      ranks_.add(Counter::kept, runs_of(parts));
+    } catch (...) {
+      queue_.give_up(std::current_exception());
+      stop_ = broken;
+    }
   }
 
   std::vector<std::size_t> columns() const {
@@ -78,21 +97,21 @@ class Engine {
     return std::chrono::duration<double>(Clock::now() - started_).count();
   }
 
-  void work_through(BlockBoard& board) {
+  void work_through() {
     try {
       std::unique_ptr<RunWorker> worker;
       std::size_t point = 0;
       const auto most = [&](std::size_t of) { return work_.points[of].task->together(); };
       std::vector<RunWork> runs;
       while (!must_stop()) {
-        const auto tickets = board.take(most);
+        const auto tickets = board_.take(most);
         if (tickets.empty()) break;
         if (!worker || point != tickets[0].point())
           worker = work_.points[point = tickets[0].point()].task->worker();
         runs.clear();
         for (const BlockBoard::Ticket& t : tickets) runs.push_back({t.run(), t.row(), {}});
         guarded_runs(*worker, runs);
-        for (std::size_t k = 0; k < runs.size(); ++k) finish(board, tickets[k], runs[k].outcome);
+        for (std::size_t k = 0; k < runs.size(); ++k) finish(tickets[k], runs[k].outcome);
         tell();
       }
     } catch (...) {
@@ -101,7 +120,7 @@ class Engine {
     }
   }
 
-  void finish(BlockBoard& board, const BlockBoard::Ticket& ticket, const RunOutcome& outcome) {
+  void finish(const BlockBoard::Ticket& ticket, const RunOutcome& outcome) {
     if (outcome.status != RunStatus::ok) {
       ++own_failed_;
       int expected = none;
@@ -110,7 +129,10 @@ class Engine {
                          {ticket.run(), outcome.status, outcome.cause, outcome.t_failed, 0.0}};
     }
     ++own_done_;
-    if (auto block = board.finish(ticket, outcome)) queue_.store(std::move(*block));
+    if (auto block = board_.finish(ticket, outcome)) {
+      ranks_.add(Counter::taken_over, ticket.block->taken_over);
+      queue_.store(std::move(*block));
+    }
   }
 
   void commit(const std::vector<StoredBlock>& batch) {
@@ -137,15 +159,23 @@ class Engine {
   Progress progress() {
     // One process knows its runs one by one; of the other ranks whole blocks are known.
     const bool alone = ranks_.size() == 1;
+    const BlockBoard::TakenOver before =
+        alone ? board_.taken_over() : BlockBoard::TakenOver{ranks_.add(Counter::taken_over, 0), 0};
     Progress p;
-    p.done_now = alone ? own_done_.load() : ranks_.add(Counter::done, 0);
-    p.failed =
-        plan_.failed_before() + (alone ? own_failed_.load() : ranks_.add(Counter::failed, 0));
-    p.done = plan_.runs_before() + p.done_now;
+    p.done_now = alone ? own_done_.load() : done_of_ranks();
+    p.failed = plan_.failed_before() + before.failed +
+               (alone ? own_failed_.load() : ranks_.add(Counter::failed, 0));
+    p.done = plan_.runs_before() + before.runs + p.done_now;
     p.total = plan_.total(p.done);
     p.at_most = rules_.follows() && p.done < p.total;
     p.elapsed = seconds();
     return p;
+  }
+
+  /// Runs that this session executed, in blocks that it stored.
+  std::uint64_t done_of_ranks() {
+    const std::uint64_t taken_over = ranks_.add(Counter::taken_over, 0);
+    return std::max(ranks_.add(Counter::done, 0), taken_over) - taken_over;
   }
 
   ExitCode stop_code() const {
@@ -183,30 +213,25 @@ class Engine {
     outcome.done_before = plan_.runs_before();
     outcome.cut_short = plan_.cut_short();
     outcome.stored_runs = reader_.runs();
-    outcome.done = ranks_.add(Counter::done, 0);
-    outcome.dropped = std::max(ranks_.add(Counter::executed, 0), outcome.done) - outcome.done;
+    outcome.done = done_of_ranks();
+    outcome.kept = ranks_.add(Counter::kept, 0);
+    outcome.kept_before = kept_before_;
+    outcome.taken_over = ranks_.add(Counter::taken_over, 0);
+    const std::uint64_t saved = outcome.done + outcome.kept;
+    outcome.dropped = std::max(ranks_.add(Counter::executed, 0), saved) - saved;
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
-    std::vector<std::uint64_t> told{static_cast<std::uint64_t>(outcome.code),
-                                    outcome.complete,
-                                    outcome.failed,
-                                    outcome.results,
-                                    outcome.missing,
-                                    outcome.missing_own};
-    ranks_.broadcast(told);
-    outcome.code = static_cast<ExitCode>(told[0]);
-    outcome.complete = told[1] != 0;
-    outcome.failed = told[2], outcome.results = told[3];
-    outcome.missing = told[4], outcome.missing_own = told[5];
-    end_session(outcome.code);
+    share_with_all(outcome, ranks_);
+    end_session(outcome.code, outcome.complete);
     for (const auto* notes : {&store_.notes(), &reader_.notes()})
       outcome.notes.insert(outcome.notes.end(), notes->begin(), notes->end());
     return outcome;
   }
 
-  void end_session(ExitCode code) {
+  void end_session(ExitCode code, bool complete = false) {
     try {
+      if (complete) store_.forget_kept();
       store_.end_session(static_cast<int>(code));
     } catch (const InputError&) {  // the results are stored; a full disk has no room for this
     }
@@ -217,6 +242,7 @@ class Engine {
     outcome.missing = rest.all;
     outcome.missing_own = rest.own;
     outcome.complete = rest.all == 0;
+    if (!outcome.complete) outcome.kept_after = runs_of(plan_.kept());
     if (!outcome.complete) return;
     outcome.results = rest.verified->results;
     outcome.failed = rest.verified->failed;
@@ -241,6 +267,8 @@ class Engine {
   StudyReader reader_;
   RuleFollower rules_;
   WorkPlan plan_;
+  BlockBoard board_;
+  std::uint64_t kept_before_ = 0;
   std::atomic<std::uint64_t> own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;
   std::optional<StudyOutcome::FailedRun> failed_first_;  ///< by the thread that stopped for it

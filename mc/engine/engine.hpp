@@ -47,8 +47,12 @@ struct StudyOutcome {
       0;  ///< runs found in blocks that the shorter study before ended within: done anew
   std::uint64_t stored_runs =
       0;  ///< per point, the most asked for so far; more than `runs`: results have them too
-  std::uint64_t done = 0;       ///< runs executed and stored in this session, all ranks
-  std::uint64_t dropped = 0;    ///< runs executed in blocks that were not completed: not stored
+  std::uint64_t done = 0;  ///< runs executed in this session in blocks that it stored, all ranks
+  std::uint64_t kept = 0;  ///< runs executed in blocks that were not completed: kept for the next
+  std::uint64_t kept_before = 0;  ///< such that this session found, of this worker's share
+  std::uint64_t taken_over = 0;   ///< of them those in blocks that it stored
+  std::uint64_t kept_after = 0;   ///< such that are there at its end
+  std::uint64_t dropped = 0;    ///< executed beside the run at which `fail_fast` stopped: not kept
   std::uint64_t failed = 0;     ///< failed runs: of all results if complete, else of this session
   std::uint64_t results = 0;    ///< runs that count (complete studies)
   std::size_t missing = 0;      ///< blocks still to be done
@@ -68,9 +72,9 @@ struct StudyOutcome {
 ///
 /// Runs go to the threads one by one, across blocks and points; a block is stored when its last run
 /// is done. A failed run is a row and a cause. SIGINT, SIGTERM and `max_wall` let the runs at work
-/// finish and drop incomplete blocks: the study is resumed by the same call. Results do not depend
-/// on threads, workers, ranks or interruptions. InputError: io if the disk is full (resumable),
-/// self_check if two workers came to different results.
+/// finish; runs of incomplete blocks are kept, and the study is resumed by the same call. Results
+/// do not depend on threads, workers, ranks or interruptions. InputError: io if the disk is full
+/// (resumable), self_check if two workers came to different results.
 StudyOutcome run_study(const StudyWork& work, const EngineOptions& options,
                        const std::string& folder, const Manifest& manifest, Ranks& ranks,
                        const ProgressSink& progress = {});

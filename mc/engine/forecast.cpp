@@ -32,6 +32,11 @@ Forecast forecast(const StudyWork& work, const EngineOptions& options, const std
     else
       ++found.others;
   }
+  found.kept = runs_of(reader.kept([&](std::size_t point, std::uint64_t first) {
+    return std::ranges::binary_search(
+        found.own, std::pair(point, first), {},
+        [](const BlockKey& block) { return std::pair(block.point, block.first); });
+  }));
   found.notes = reader.notes();
   return found;
 }

@@ -14,6 +14,7 @@ struct Forecast {
   std::uint64_t stored = 0;        ///< runs of those asked for, whole
   std::uint64_t beyond = 0;        ///< runs listed besides, that a longer study asked for
   std::uint64_t cut_short = 0;     ///< runs in blocks that a shorter study ended within: done anew
+  std::uint64_t kept = 0;          ///< runs of unfinished blocks that it would go on from
   std::uint64_t asked_before = 0;  ///< per point, the most asked for before; 0: the study is new
   std::vector<BlockKey> own;       ///< to execute; where there are stop rules, at most
   std::size_t others = 0;          ///< blocks missing of the other workers' parts

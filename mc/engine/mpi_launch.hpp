@@ -23,8 +23,8 @@ class Ranks {
   std::size_t size() const;
   bool leader() const { return rank() == 0; }
 
-  enum class Counter { block, done, failed, stop, executed };
-  static constexpr std::size_t counters = 5;
+  enum class Counter { block, done, failed, stop, executed, kept, taken_over };
+  static constexpr std::size_t counters = 7;
   /// Adds to a counter that all share; what it was before.
   std::uint64_t add(Counter counter, std::uint64_t n);
 

@@ -66,6 +66,14 @@ bool WorkPlan::mend() {
   return true;
 }
 
+std::vector<StoredBlock> WorkPlan::kept() {
+  const std::uint64_t size = reader_.manifest().identity.block_size;
+  const std::uint64_t each = all_.size() / reader_.manifest().points.size();
+  return reader_.kept([&](std::size_t point, std::uint64_t first) {
+    return first < options_.runs && own({point * each + first / size}).size() == 1;
+  });
+}
+
 std::optional<BlockKey> WorkPlan::next() {
   while (true) {
     const std::uint64_t i = ranks_.add(Ranks::Counter::block, 1) - taken_before_;

@@ -28,6 +28,9 @@ class WorkPlan {
   /// The next block to begin, or nothing. Called by one thread at a time.
   std::optional<BlockKey> next();
 
+  /// What earlier sessions kept of this worker's share of blocks, which are not stored yet.
+  std::vector<StoredBlock> kept();
+
   std::uint64_t runs_before() const { return before_; }
   std::uint64_t failed_before() const { return failed_before_; }
   std::uint64_t cut_short() const { return cut_short_; }

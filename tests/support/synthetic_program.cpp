@@ -1,7 +1,7 @@
 // The whole program with cheap runs in place of simulations: driftscope_synthetic. What a run does
-// comes from the study's title, "synthetic key=value ...": columns, fail_every, throw_at, ms,
-// points, half_width. DRIFT_SYNTHETIC_SCALE=x in the environment makes it a program with other
-// results.
+// comes from the study's title, "synthetic key=value ...": columns, fail_every, throw_at, stop_at,
+// together, ms, points, half_width. DRIFT_SYNTHETIC_SCALE=x in the environment makes it a program
+// with other results.
 #include <cstdlib>
 #include <sstream>
 
@@ -25,6 +25,8 @@ StudyProgram study_program() {
       if (key == "columns") o.columns = static_cast<std::size_t>(value);
       if (key == "fail_every") o.fail_every = static_cast<std::uint64_t>(value);
       if (key == "throw_at") o.throw_at = static_cast<std::uint64_t>(value);
+      if (key == "stop_at") o.stop_at = static_cast<std::uint64_t>(value);
+      if (key == "together") o.together = static_cast<std::size_t>(value);
       if (key == "ms") o.milliseconds = value;
       if (key == "points") points = static_cast<std::size_t>(value);
       if (key == "half_width") half_width = value;

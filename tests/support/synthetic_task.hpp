@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <thread>
 
 #include "core/base/rng.hpp"
@@ -16,6 +17,8 @@ struct SyntheticOptions {
   std::uint64_t fail_every = 0;    ///< runs k with k % fail_every == fail_every - 1 fail; 0: none
   std::uint64_t throw_at = ~0ull;  ///< this run throws
   double milliseconds = 0.0;       ///< spent busy in every run
+  std::uint64_t stop_at = ~0ull;   ///< this run sends SIGTERM to the process
+  std::size_t together = 1;        ///< runs that are executed together
   double scale = 1.0;              ///< tells points apart
 };
 
@@ -29,6 +32,7 @@ class SyntheticTask : public mc::RunTask {
   }
   const std::vector<mc::Column>& columns() const override { return columns_; }
   std::unique_ptr<mc::RunWorker> worker() const override { return std::make_unique<Worker>(o_); }
+  std::size_t together() const override { return o_.together; }
 
  private:
   class Worker : public mc::RunWorker {
@@ -38,6 +42,7 @@ class SyntheticTask : public mc::RunTask {
       mc::RunOutcome outcome;
       const auto until = std::chrono::steady_clock::now() +
                          std::chrono::duration<double, std::milli>(o_.milliseconds);
+      if (run == o_.stop_at) std::raise(SIGTERM);
       if (run == o_.throw_at) throw std::runtime_error("thrown by run " + std::to_string(run));
       Stream stream(o_.seed, run, Purpose::test);
       for (double& v : row) v = o_.scale * stream.normal();

@@ -49,7 +49,7 @@ std::string work_text(const AskedRun& asked, const mc::EngineOptions& options,
                                                blocks_text(would.others))
                                  : "";
   std::string text = fmt::format(
-      "stored           {} runs{}{}\n", would.stored + would.beyond,
+      "stored           {} runs{}{}{}\n", would.stored + would.beyond,
       would.beyond == 0 ? ""
                         : fmt::format(", {} of them beyond the {} per point that are asked for",
                                       would.beyond, options.runs),
@@ -57,7 +57,8 @@ std::string work_text(const AskedRun& asked, const mc::EngineOptions& options,
           ? ""
           : fmt::format("; {} more are in blocks that a shorter study ended within: they would be "
                         "executed again",
-                        would.cut_short));
+                        would.cut_short),
+      would.kept == 0 ? "" : fmt::format("; {} more, of unfinished blocks, are kept", would.kept));
   if (would.own.empty())
     return text + fmt::format("to execute       nothing, {} is complete{}\n",
                               others.empty() ? "the study" : "this worker's part", others);
@@ -103,6 +104,7 @@ ExitCode dry_run(const AskedRun& asked, mc::EngineOptions options, const mc::Ran
   say_asked_before(folder, would.asked_before, options.runs);
   std::uint64_t runs = 0;
   for (const mc::BlockKey& block : would.own) runs += block.count;
+  runs -= would.kept;
   const std::size_t points = work.points.size();
   show(
       "folder           {}{}\nstudy points     {}\n"

@@ -42,18 +42,25 @@ bool stopped(const mc::StudyOutcome& o) {
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) say("note: {}\n", note);
+  const std::uint64_t executed = o.done + o.kept + o.dropped;
   if (stopped(o)) {
-    say("stopped: {} runs are stored in {}, {} of unfinished blocks are lost; the same command "
-        "goes "
-        "on with the rest\n",
-        o.done_before + o.done, folder, o.dropped);
+    say("stopped: {} runs are stored in {}, {} of unfinished blocks are kept{}; the same command "
+        "goes on with the rest\n",
+        o.done_before + o.done + o.taken_over, folder, o.kept_after,
+        executed == 0 && o.missing_own > 0
+            ? fmt::format(": not even one group of runs was finished in {}",
+                          duration_text(o.seconds))
+            : "");
     return;
   }
-  const double rate = o.seconds > 0.0 ? static_cast<double>(o.done) / o.seconds : 0.0;
-  say("{}: {} runs{} stored before, {} executed in {} ({:.1f} runs/s), {} failed{}\n", folder,
-      o.done_before + o.cut_short, o.stored_runs > asked.runs ? " of those asked for" : "", o.done,
-      duration_text(o.seconds), rate, o.failed,
-      o.dropped > 0 ? fmt::format("; {} more, of unfinished blocks, are lost", o.dropped) : "");
+  const double rate = o.seconds > 0.0 ? static_cast<double>(executed) / o.seconds : 0.0;
+  say("{}: {} runs{} stored before{}, {} executed in {} ({:.1f} runs/s), {} failed{}{}\n", folder,
+      o.done_before + o.cut_short, o.stored_runs > asked.runs ? " of those asked for" : "",
+      o.kept_before > 0 ? fmt::format(" and {} of unfinished blocks kept", o.kept_before) : "",
+      o.done, duration_text(o.seconds), rate, o.failed,
+      o.kept > 0 ? fmt::format("; {} more, of unfinished blocks, are kept", o.kept) : "",
+      o.dropped > 0 ? fmt::format("; {} more, executed with one that failed, are not", o.dropped)
+                    : "");
   if (o.cut_short > 0)
     say("{}: {} of the runs stored before were in blocks that the shorter study ended within; they "
         "were executed again with the rest of their blocks\n",

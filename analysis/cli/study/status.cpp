@@ -70,6 +70,11 @@ ExitCode status_of_study(const std::string& folder, const StudyProgram& program)
   if (left > 0 && state.runs > 0)
     show("at most {} of CPU time to go\n",
          duration_text(cpu / static_cast<double>(state.runs) * static_cast<double>(left)));
+  const auto kept =
+      reader.kept([&](std::size_t point, std::uint64_t) { return !state.points[point].complete; });
+  if (!kept.empty())
+    show("and {} of unfinished blocks are kept: the same command goes on from them\n",
+         mc::runs_of(kept));
   show("disk {:.3g} MB in {} worker files\n", megabytes_of(reader.files()), reader.files().size());
   const std::vector<mc::Session> sessions = reader.sessions();
   for (std::size_t k = 0; k < sessions.size(); ++k)

@@ -189,8 +189,8 @@ TEST(Stopped, SaysInOneLineWhatIsKeptWhatIsLostAndHowToGoOn) {
   ASSERT_FALSE(said.empty());
   EXPECT_TRUE(said.back().starts_with("stopped: ")) << said.back();
   EXPECT_TRUE(has(said.back(), " runs are stored in " + out)) << said.back();
-  EXPECT_TRUE(has(said.back(), "of unfinished blocks are lost; the same command goes on"));
-  EXPECT_FALSE(has(said.back(), ", 0 of unfinished")) << "what is lost is counted: " << said.back();
+  EXPECT_TRUE(has(said.back(), "of unfinished blocks are kept; the same command goes on"));
+  EXPECT_FALSE(has(said.back(), ", 0 of unfinished")) << "what is kept is counted: " << said.back();
 }
 
 }  // namespace
