@@ -12,6 +12,7 @@
 #include "mc/engine/outcome_of_ranks.hpp"
 #include "mc/engine/rule_follower.hpp"
 #include "mc/engine/stop_signals.hpp"
+#include "mc/engine/time_for_groups.hpp"
 #include "mc/engine/work_plan.hpp"
 #include "mc/store/store.hpp"
 #include "mc/store/study_reader.hpp"
@@ -38,7 +39,8 @@ class Engine {
         reader_(folder),
         rules_(work.stop_rules, options.runs, reader_),
         plan_(work, options, ranks, reader_, rules_),
-        board_([this] { return plan_.next(); }, columns()) {}
+        board_([this] { return plan_.next(); }, columns()),
+        time_(options.max_wall) {}
 
   StudyOutcome run() {
     store_.begin_session(options_.runs);
@@ -87,7 +89,7 @@ class Engine {
     int expected = none;
     if (signals_.caught() != 0) {
       stop_.compare_exchange_strong(expected, asked);
-    } else if (options_.max_wall && seconds() >= *options_.max_wall) {
+    } else if (time_.is_over(seconds())) {
       stop_.compare_exchange_strong(expected, full_time);
     }
     return stop_ != none;
@@ -106,11 +108,14 @@ class Engine {
       while (!must_stop()) {
         const auto tickets = board_.take(most);
         if (tickets.empty()) break;
+        time_.begin();
+        const double begun = seconds();
         if (!worker || point != tickets[0].point())
           worker = work_.points[point = tickets[0].point()].task->worker();
         runs.clear();
         for (const BlockBoard::Ticket& t : tickets) runs.push_back({t.run(), t.row(), {}});
         guarded_runs(*worker, runs);
+        time_.end(seconds() - begun);
         for (std::size_t k = 0; k < runs.size(); ++k) finish(tickets[k], runs[k].outcome);
         tell();
       }
@@ -219,6 +224,7 @@ class Engine {
     outcome.taken_over = ranks_.add(Counter::taken_over, 0);
     const std::uint64_t saved = outcome.done + outcome.kept;
     outcome.dropped = std::max(ranks_.add(Counter::executed, 0), saved) - saved;
+    outcome.longest_group = time_.longest();
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
@@ -242,6 +248,8 @@ class Engine {
     outcome.missing = rest.all;
     outcome.missing_own = rest.own;
     outcome.complete = rest.all == 0;
+    // No time for another group, and none was left.
+    if (outcome.code == ExitCode::wall_time && rest.own == 0) outcome.code = ExitCode::ok;
     if (!outcome.complete) outcome.kept_after = runs_of(plan_.kept());
     if (!outcome.complete) return;
     outcome.results = rest.verified->results;
@@ -251,7 +259,6 @@ class Engine {
       note_finished(folder_, options_.runs);
     } catch (const InputError&) {  // the results are stored; this can be told anew
     }
-    if (outcome.code == ExitCode::wall_time) outcome.code = ExitCode::ok;  // it came after all
     if (outcome.code == ExitCode::ok && outcome.failed > options_.allowed_failures)
       outcome.code = ExitCode::failed_runs;
   }
@@ -268,6 +275,7 @@ class Engine {
   RuleFollower rules_;
   WorkPlan plan_;
   BlockBoard board_;
+  TimeForGroups time_;
   std::uint64_t kept_before_ = 0;
   std::atomic<std::uint64_t> own_done_ = 0, own_failed_ = 0;
   std::atomic<int> stop_ = none;

@@ -53,6 +53,7 @@ struct StudyOutcome {
   std::uint64_t taken_over = 0;   ///< of them those in blocks that it stored
   std::uint64_t kept_after = 0;   ///< such that are there at its end
   std::uint64_t dropped = 0;    ///< executed beside the run at which `fail_fast` stopped: not kept
+  double longest_group = 0.0;   ///< of runs executed together, in this process [s]
   std::uint64_t failed = 0;     ///< failed runs: of all results if complete, else of this session
   std::uint64_t results = 0;    ///< runs that count (complete studies)
   std::size_t missing = 0;      ///< blocks still to be done
@@ -71,10 +72,11 @@ struct StudyOutcome {
 /// Executes what is missing of a study and stores it in a folder that claim_folder() accepted.
 ///
 /// Runs go to the threads one by one, across blocks and points; a block is stored when its last run
-/// is done. A failed run is a row and a cause. SIGINT, SIGTERM and `max_wall` let the runs at work
-/// finish; runs of incomplete blocks are kept, and the study is resumed by the same call. Results
-/// do not depend on threads, workers, ranks or interruptions. InputError: io if the disk is full
-/// (resumable), self_check if two workers came to different results.
+/// is done. A failed run is a row and a cause. SIGINT and SIGTERM let the runs at work finish,
+/// `max_wall` begins none that would not end in time (but one of each session); runs of incomplete
+/// blocks are kept, and the study is resumed by the same call. Results do not depend on threads,
+/// workers, ranks or interruptions. InputError: io if the disk is full (resumable), self_check if
+/// two workers came to different results.
 StudyOutcome run_study(const StudyWork& work, const EngineOptions& options,
                        const std::string& folder, const Manifest& manifest, Ranks& ranks,
                        const ProgressSink& progress = {});

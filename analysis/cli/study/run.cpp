@@ -39,6 +39,20 @@ bool stopped(const mc::StudyOutcome& o) {
   return o.code == ExitCode::interrupted || o.code == ExitCode::terminated;
 }
 
+/// Where --max-wall is too short for the study.
+void say_of_wall(const mc::StudyOutcome& o, const mc::EngineOptions& asked,
+                 const std::string& folder, std::uint64_t executed) {
+  if (o.code != ExitCode::wall_time || !asked.max_wall) return;
+  if (executed == 0)
+    say("{}: nothing was stored: not even one group of runs was finished in {}. Take a longer "
+        "--max-wall, or more threads\n",
+        folder, duration_text(o.seconds));
+  else if (o.longest_group > *asked.max_wall)
+    say("{}: runs that are executed together take {}, longer than --max-wall: the session ended "
+        "after it, and a batch system may end it before. Take a longer --max-wall\n",
+        folder, duration_text(o.longest_group));
+}
+
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
   for (const std::string& note : o.notes) say("note: {}\n", note);
@@ -61,6 +75,7 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
       o.kept > 0 ? fmt::format("; {} more, of unfinished blocks, are kept", o.kept) : "",
       o.dropped > 0 ? fmt::format("; {} more, executed with one that failed, are not", o.dropped)
                     : "");
+  say_of_wall(o, asked, folder, executed);
   if (o.cut_short > 0)
     say("{}: {} of the runs stored before were in blocks that the shorter study ended within; they "
         "were executed again with the rest of their blocks\n",

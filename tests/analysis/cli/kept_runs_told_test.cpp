@@ -43,5 +43,17 @@ TEST(KeptRunsTold, ASignalWithinABlockLosesNoGroupOfRuns) {
   expect_says(synthetic("verify " + out + " --sample 100%").out, "sound and complete");
 }
 
+TEST(KeptRunsTold, AWallThatIsShorterThanAGroupIsNamed) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), line = "run " + study_file(scratch, "ms=1") +
+                                                      " --threads 1 --max-wall 0.001s -o " + out;
+  const Answer first = synthetic(line);
+  EXPECT_EQ(first.code, 75) << first.err;
+  expect_says(first.err, "0 runs stored before, 0 executed in ");
+  expect_says(first.err, "; 8 more, of unfinished blocks, are kept\n");
+  expect_says(first.err, "longer than --max-wall");
+  expect_says(synthetic(line).err, "0 runs stored before and 8 of unfinished blocks kept, 0 ");
+}
+
 }  // namespace
 }  // namespace drift::kept_runs_told_test

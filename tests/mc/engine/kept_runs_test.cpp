@@ -56,6 +56,23 @@ TEST(KeptRuns, ASessionStoppedInABlockIsGoneOnFromAndOnlyTheRestIsExecuted) {
   EXPECT_TRUE(mc::StudyReader(folder.path()).misfits().empty()) << "failures and moments with it";
 }
 
+TEST(KeptRuns, SessionsShorterThanABlockComeToAnEnd) {
+  const ScratchFolder straight, folder;
+  SyntheticStudy study = lock_step_study();
+  study.options.runs = 100;
+  const auto whole = study.run(straight.path());
+  study.options.max_wall = 1e-6;  // one group each
+  std::size_t sessions = 1;
+  auto last = study.run(folder.path());
+  EXPECT_EQ(last.kept, 8u);
+  for (; last.code == ExitCode::wall_time && sessions < 100; ++sessions)
+    last = study.run(folder.path());
+  EXPECT_TRUE(last.complete);
+  EXPECT_EQ(last.code, ExitCode::ok);
+  EXPECT_EQ(last.digest, whole.digest);
+  EXPECT_EQ(sessions, 13u) << "100 runs in groups of 8, of which none is executed twice";
+}
+
 TEST(KeptRuns, AFlippedBitInThemIsToldAndThoseRunsAreExecutedAgain) {
   for (const char* damage :
        {"UPDATE partial SET payload = CAST(substr(payload, 1, 20) || x'5a' || substr(payload, 22) "
