@@ -59,9 +59,14 @@ std::string work_text(const AskedRun& asked, const mc::EngineOptions& options,
                         "executed again",
                         would.cut_short),
       would.kept == 0 ? "" : fmt::format("; {} more, of unfinished blocks, are kept", would.kept));
-  if (would.own.empty())
-    return text + fmt::format("to execute       nothing, {} is complete{}\n",
-                              others.empty() ? "the study" : "this worker's part", others);
+  if (would.own.empty()) {
+    const std::string empty = empty_part_text(options.share, asked.manifest, options.runs);
+    return text + fmt::format("to execute       nothing, {}{}\n",
+                              others.empty()   ? "the study is complete"
+                              : !empty.empty() ? empty
+                                               : "this worker's part is complete",
+                              others);
+  }
   return text + fmt::format("to execute       {}{} runs, {}{}{}\n",
                             asked.work.stop_rules ? "at most " : "", runs,
                             blocks_text(would.own.size()), part_text(options.share), others);

@@ -54,7 +54,8 @@ void say_of_wall(const mc::StudyOutcome& o, const mc::EngineOptions& asked,
 }
 
 /// What happened, for people; on stderr, where results are not.
-void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder) {
+void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder,
+          const mc::Manifest& manifest) {
   for (const std::string& note : o.notes) say("note: {}\n", note);
   const std::uint64_t executed = o.done + o.kept + o.dropped;
   if (stopped(o)) {
@@ -81,6 +82,7 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
         "were executed again with the rest of their blocks\n",
         folder, o.cut_short);
   say_asked_before(folder, o.stored_runs, asked.runs);
+  say_empty_part(folder, asked.share, manifest, asked.runs);
   if (!o.complete && o.missing_own > 0)
     say("{}: missing: {}{}. The same command goes on with them\n", folder,
         blocks_text(o.missing_own), part_text(asked.share));
@@ -151,7 +153,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   if (outcome.failed_first)
     say_failed(folder, outcome.failed_first->point, outcome.failed_first->failure);
   if (!outcome.leader) return outcome.code;
-  tell(outcome, options, folder);
+  tell(outcome, options, folder, manifest);
   if (stopped(outcome)) return outcome.code;  // one line; failures are listed when the study ends
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);

@@ -55,6 +55,24 @@ TEST(DryRun, WhatIsStoredIsNotToBeExecuted) {
   expect_says(dry(line, out).out, "to execute       nothing, the study is complete\n");
 }
 
+TEST(DryRun, AWorkerForWhomThereIsNoBlockIsToldSo) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out"), line = "run " + study_file(scratch) + " -o " + out,
+                    empty =
+                        "this part is empty: the study has 4 blocks of 64 runs, so at most 4 "
+                        "workers can help";
+  const std::string worker = line + " --worker 4/1000";
+  expect_says(synthetic(worker + " --dry-run").out,
+              "to execute       nothing, " + empty +
+                  "; missing besides: 4 blocks of runs of the other workers' parts\n");
+  const Answer run = synthetic(worker);
+  EXPECT_EQ(run.code, 0) << run.err;
+  expect_says(run.err, "note: --worker 4/1000: " + empty + "\n");
+  EXPECT_EQ(synthetic(line + " --worker 3/1000").err.find("is empty"), std::string::npos);
+  expect_says(synthetic(worker + " --runs 64").err,
+              "the study has 1 block of 64 runs, so at most 1 worker can help\n");
+}
+
 TEST(DryRun, OfALongerOrShorterStudyItSaysWhatTheRunWould) {
   const ScratchFolder scratch;
   const std::string out = scratch.file("out"), line = "run " + study_file(scratch) + " -o " + out;
