@@ -135,7 +135,8 @@ Verification verify(const StudyWork& work, StudyReader& reader, double sample, i
     v.recomputed += chosen.size();
   };
   v.damage = reader.unsound();
-  for (std::string& path : v.damage) path += ": the structure of the file is damaged. Move it away";
+  for (std::string& path : v.damage)
+    path += ": the structure of the file is damaged. " + std::string(whole_blocks_are_taken_over);
   for (std::string& line : reader.misfits()) v.damage.push_back(std::move(line));
   Gone gone(reader.manifest().finished, v.damage);
   Following rule(work.stop_rules);

@@ -59,12 +59,14 @@ void StudyReader::refresh() {
       }
       for (const Session& session : source.file->sessions())
         if (session.sound) asked_ = std::max(asked_, session.runs);
-      if (damaged) note(fmt::format("{}: damaged; what cannot be read of it is left out", path));
+      if (damaged)
+        note(fmt::format("{}: damaged; what cannot be read of it is left out. {}", path,
+                         whole_blocks_are_taken_over));
     } catch (const OtherOrigin&) {
       throw;
     } catch (const InputError& error) {
       if (error.code() != ExitCode::store) throw;
-      note(fmt::format("{}: damaged, cannot be read", path));
+      note(fmt::format("{}: damaged, cannot be read. {}", path, whole_blocks_are_taken_over));
     }
   }
 }

@@ -14,6 +14,12 @@
 
 namespace drift::mc {
 
+/// What is to be done about a damaged worker file, which only its own worker writes.
+inline constexpr const char* whole_blocks_are_taken_over =
+    "Leave it where it is and run the same command (the one of this worker): whole blocks are "
+    "taken "
+    "over from it";
+
 /// The results in a folder, from any number of worker files, in order of points and runs whoever
 /// computed them. Keeps one block in memory at a time.
 class StudyReader {

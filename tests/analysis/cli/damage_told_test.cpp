@@ -58,6 +58,28 @@ TEST(DamageTold, ARunWhoseBlockIsDamagedIsNotCalledNew) {
   EXPECT_EQ(damaged, 1);
 }
 
+TEST(DamageTold, AFileThatIsCutOffIsNotToBeMovedAwayAsItsWholeBlocksAreTakenOver) {
+  const Folder folder;
+  const std::string file = folder.out + "/worker-0000.sqlite";
+  const std::string more =
+      "run " + folder.study + " --runs 640 --threads 1 --progress none -o " + folder.out;
+  const Answer whole = driftscope(more);
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  fs::resize_file(file, fs::file_size(file) / 4 * 3);
+  const Answer verify = driftscope("verify " + folder.out + " --sample 0%");
+  EXPECT_EQ(verify.code, store_error);
+  for (const std::string& said : {driftscope("status " + folder.out).out, verify.out}) {
+    expect_says(said, "run the same command (the one of this worker): whole blocks are taken over");
+    EXPECT_EQ(said.find("worker-0000.sqlite: the structure of the file is damaged. Move it away"),
+              std::string::npos)
+        << said;
+  }
+  const Answer again = driftscope(more);
+  EXPECT_EQ(again.out, whole.out);
+  expect_says(again.err, " whole blocks taken over from it");
+  EXPECT_EQ(again.err.find(" 0 whole blocks"), std::string::npos) << again.err;
+}
+
 TEST(DamageTold, VerifyKnowsWhatWasWrittenBesideTheResults) {
   const Folder folder;
   for (const char* name : {"summary.json", "report.html"}) {
