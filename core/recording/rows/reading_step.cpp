@@ -7,11 +7,11 @@
 namespace drift {
 namespace {
 
-constexpr double rounding = 1e-3;  ///< [steps] of a decimal text, and of its conversion
+constexpr double step_rounding = 1e-3;  ///< [steps] of a decimal text, and of its conversion
 constexpr std::size_t fewest_values = 4, fewest_bends = 100;
 
 bool is_whole(double steps) {
-  return std::abs(steps - std::round(steps)) < rounding;
+  return std::abs(steps - std::round(steps)) < step_rounding;
 }
 
 /// The least distance of sorted values, or of their distances: rows that move by 4 and by 5 steps
@@ -24,7 +24,7 @@ double finest(const std::vector<double>& values) {
   std::ranges::sort(apart);
   double least = apart.front();
   for (std::size_t i = 1; i < apart.size(); ++i)
-    if (const double more = apart[i] - apart[i - 1]; more > 10.0 * rounding * apart.front())
+    if (const double more = apart[i] - apart[i - 1]; more > 10.0 * step_rounding * apart.front())
       least = std::min(least, more);
   return least;
 }

@@ -6,6 +6,7 @@
 
 #include "analysis/diagnosis/advice/patched_study.hpp"
 #include "analysis/diagnosis/asides.hpp"
+#include "analysis/diagnosis/doubts/wrong_priors.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
