@@ -164,21 +164,29 @@ std::string estimator_text(const mc::Study& study) {
 
 std::string not_linear_text(const StudyResults& results, const Pair& pair) {
   const mc::StartStatistics& start = first_start(results, pair);
+  const double off = sigmas_off(start), chance = std::sqrt(start.nees.high());
+  // Many runs show what nobody would mind.
+  const std::string how_much =
+      off < 1.1
+          ? fmt::format("{} % larger (root of NEES/dof, by chance up to {} %",
+                        number_text(100.0 * (off - 1.0), 2), number_text(100.0 * (chance - 1.0), 2))
+          : fmt::format("{} times as large (root of NEES/dof, by chance up to {}",
+                        number_text(off, 3), number_text(chance, 3));
   return fmt::format(
-      "The sigmas are too small: errors are {} times as large (root of NEES/dof, by chance up to "
-      "{}; {}). Truths, noise and filter are alike, so it is the estimator: {}.",
-      number_text(sigmas_off(start), 3), number_text(std::sqrt(start.nees.high()), 3),
-      pair_in_words(results, pair), estimator_text(results.points[pair.point].study));
+      "The sigmas are too small: errors are {}; {}). Truths, noise and filter are alike, so it is "
+      "the estimator: {}.",
+      how_much, pair_in_words(results, pair), estimator_text(results.points[pair.point].study));
 }
 
 /// A filter may have all of the truth and not follow its data: linear about a place far off, say.
 std::string unlike_text(const StudyResults& results, const Pair& pair) {
   const mc::StartStatistics& start = first_start(results, pair);
+  const int digits = start.nis.mean() < 1.1 ? 5 : 3;  // many runs show what is hardly there
   return fmt::format(
       "The innovations are not those that the filter expects: NIS/dof {} (by chance {} to {}; {}), "
       "and {} % of its runs look healthy.",
-      number_text(start.nis.mean(), 3), number_text(start.nis.low(), 3),
-      number_text(start.nis.high(), 3), pair_in_words(results, pair),
+      number_text(start.nis.mean(), digits), number_text(start.nis.low(), digits),
+      number_text(start.nis.high(), digits), pair_in_words(results, pair),
       percent_cell(start.healthy.value()).text);
 }
 

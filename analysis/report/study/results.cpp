@@ -5,6 +5,7 @@
 
 #include "analysis/report/page/swept_value.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/base/number_text.hpp"
 #include "core/physics/parameters_config.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
 
@@ -119,6 +120,12 @@ std::string condition_of(const mc::StudyPoint& point) {
 
 namespace {
 
+/// One of a percentage, or as many as leave two digits of a share or an interval below 0.1 %.
+int decimals_of_percent(double share) {
+  const double percent = 100.0 * share;
+  return percent > 0.0 && percent < 0.1 ? 1 - static_cast<int>(std::floor(std::log10(percent))) : 1;
+}
+
 /// Of filters from their first start; the first of several.
 std::size_t most_silent_point(const StudyResults& results) {
   std::size_t worst = 0;
@@ -172,14 +179,16 @@ std::string label_of(const StudyResults& results, const Pair& pair) {
 
 Cell rate_cell(const stats::Rate& rate, Tone tone) {
   if (rate.of == 0) return "-";
+  const int decimals = decimals_of_percent(rate.high() - rate.low());
   return {rate.value(),
-          fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * rate.value(), 100.0 * rate.low(),
-                      100.0 * rate.high()),
+          fmt::format("{0:.{3}f} % ({1:.{3}f} to {2:.{3}f})", 100.0 * rate.value(),
+                      100.0 * rate.low(), 100.0 * rate.high(), decimals),
           tone};
 }
 
 Cell percent_cell(double share) {
-  return {share, std::isfinite(share) ? fmt::format("{:.1f}", 100.0 * share) : "-"};
+  return {share,
+          std::isfinite(share) ? decimal_text(100.0 * share, decimals_of_percent(share)) : "-"};
 }
 
 std::size_t worst_parameter(const mc::FilterStatistics& filter, double claims) {
