@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/study/sections.hpp"
+#include "core/base/check.hpp"
 
 namespace drift::report {
 namespace {
@@ -98,9 +99,49 @@ Json failures(const mc::FailureStatistics& f) {
           {"by_parameter", deciles}};
 }
 
+Json of_point(const StudyResults& results, std::size_t p) {
+  const mc::StudyPoint& point = results.points[p];
+  Json values = Json::object();
+  for (const auto& [key, value] : point.values) values[key] = value;
+  Json one = {{"id", point.id},
+              {"label", point.label},
+              {"name", name_of(results, p)},
+              {"values", values},
+              {"truth", key_of(point.study.truth.coupling)},
+              {"runs", results.statistics[p].runs()},
+              {"failures", failures(results.statistics[p].failures())},
+              {"filters", Json::array()}};
+  for (std::size_t f = 0; f < results.statistics[p].filters().size(); ++f) {
+    const mc::FilterStatistics& filter = results.statistics[p].filters()[f];
+    Json pair = {{"name", filter.columns().name},
+                 {"coupling", key_of(filter.columns().coupling)},
+                 {"matched", matched(results, {p, f})},
+                 {"left_out", of(left_out(results, {p, f}))},
+                 {"starts", Json::array()},
+                 {"parameters", Json::array()}};
+    for (const auto& s : filter.starts()) pair["starts"].push_back(of(s));
+    for (std::size_t k = 0; k < filter.errors().size(); ++k)
+      pair["parameters"].push_back(parameter(filter, k));
+    one["filters"].push_back(std::move(pair));
+  }
+  return one;
+}
+
+/// The text of a value that stands `depth` levels down: strings have no line ends of their own.
+std::string dumped_at(const Json& value, std::size_t depth) {
+  std::string text = dumped(value);
+  text.pop_back();  // the last line end
+  std::string out;
+  for (const char c : text) {
+    out += c;
+    if (c == '\n') out.append(depth, ' ');
+  }
+  return out;
+}
+
 }  // namespace
 
-Json study_document(const StudyResults& results) {
+std::string study_json(const StudyResults& results, const std::vector<Section>& sections) {
   Json out = {{"schema", 1},
               {"title", results.study.title},
               {"runs", all_runs(results)},
@@ -109,36 +150,17 @@ Json study_document(const StudyResults& results) {
               {"finished", results.unfinished.empty()},
               {"headlines", headlines(results)},
               {"points", Json::array()}};
-  for (std::size_t p = 0; p < results.points.size(); ++p) {
-    const mc::StudyPoint& point = results.points[p];
-    Json values = Json::object();
-    for (const auto& [key, value] : point.values) values[key] = value;
-    Json one = {{"id", point.id},
-                {"label", point.label},
-                {"name", name_of(results, p)},
-                {"values", values},
-                {"truth", key_of(point.study.truth.coupling)},
-                {"runs", results.statistics[p].runs()},
-                {"failures", failures(results.statistics[p].failures())},
-                {"filters", Json::array()}};
-    for (std::size_t f = 0; f < results.statistics[p].filters().size(); ++f) {
-      const mc::FilterStatistics& filter = results.statistics[p].filters()[f];
-      Json pair = {{"name", filter.columns().name},
-                   {"coupling", key_of(filter.columns().coupling)},
-                   {"matched", matched(results, {p, f})},
-                   {"left_out", of(left_out(results, {p, f}))},
-                   {"starts", Json::array()},
-                   {"parameters", Json::array()}};
-      for (const auto& s : filter.starts()) pair["starts"].push_back(of(s));
-      for (std::size_t k = 0; k < filter.errors().size(); ++k)
-        pair["parameters"].push_back(parameter(filter, k));
-      one["filters"].push_back(std::move(pair));
-    }
-    out["points"].push_back(std::move(one));
-  }
   out["provenance"] = Json::object();
   for (const auto& [key, value] : results.provenance) out["provenance"][key] = value;
-  return out;
+  add_tables(out, sections);
+  const std::string text = dumped(out), none = "\n \"points\": []";
+  const std::size_t at = text.find(none), after = at + none.size() - 1;
+  DRIFT_DEMAND(at != std::string::npos);
+  // A point as a tree takes ten times its text: one at a time.
+  std::string all = text.substr(0, after);
+  for (std::size_t p = 0; p < results.points.size(); ++p)
+    all += (p > 0 ? ",\n  " : "\n  ") + dumped_at(of_point(results, p), 2);
+  return all + "\n " + text.substr(after);
 }
 
 }  // namespace drift::report

@@ -1,7 +1,6 @@
 #include "analysis/report/study/report.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "analysis/report/study/sections.hpp"
 
@@ -29,9 +28,7 @@ Report study_report(const StudyResults& results) {
   report.headlines = headlines(results, most_headlines);
   report.brief = study_in_brief(results);
   report.add(sections_of(results, study_sections));
-  Json document = study_document(results);
-  add_tables(document, report.sections);
-  report.document = {"summary.json", dumped(document)};
+  report.document = {"summary.json", study_json(results, report.sections)};
   report.footer = fmt::format(
       "Intervals hold with 95 %{}",
       results.study.monte_carlo.design == mc::DesignKind::random

@@ -47,6 +47,8 @@ inline constexpr double evident_misfit = 1.1;
 /// "plan.preset = six: truth eq5, filter legacy".
 std::string pair_in_words(const StudyResults& results, const Pair& pair);
 
-Json study_document(const StudyResults& results);
+/// Text of summary.json: its points one by one, for a sweep may have thousands; then the tables of
+/// the sections.
+std::string study_json(const StudyResults& results, const std::vector<Section>& sections);
 
 }  // namespace drift::report

@@ -171,6 +171,14 @@ TEST(StudyReport, ErrorsOfATermThatIsMissingAreNotCalledNonlinear) {
   EXPECT_EQ(nonlinear, 0u);
 }
 
+/// Points are written one by one: together they are the text of one document.
+TEST(StudyReport, SummaryIsOneDocumentWhateverItsNumberOfPoints) {
+  const std::string text = report::study_report(swept()).document.second;
+  const auto json = nlohmann::ordered_json::parse(text);
+  EXPECT_GT(json["points"].size(), 1u);
+  EXPECT_EQ(json.dump(1) + "\n", text);
+}
+
 TEST(StudyReport, JsonHoldsWhatTheTablesSay) {
   const auto json = nlohmann::json::parse(report::study_report(swept()).document.second);
   ASSERT_EQ(json["points"].size(), 4u);
