@@ -67,8 +67,11 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   const double noise = posterior.consistent + posterior.noise_only;
-  // Chance is what is more probable; noise that explains the same as an effect must be credible.
-  if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
+  // Chance is what is more probable; noise or priors that explain the same as an effect must be
+  // credible.
+  const bool competes = best && (found.noise_alone || out.or_priors);
+  if (noise + posterior.wrong_priors > (competes ? credible : inference::SearchLimits::chance))
+    return out;
   const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
   const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
     return gain >= inference::WeighLimits::held_out;

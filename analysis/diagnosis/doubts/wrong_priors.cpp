@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "analysis/identification/beyond_prior.hpp"
@@ -85,16 +84,10 @@ std::optional<WrongPriors> wrong_priors(const FilterSpec& nominal, const Measure
   const search::Detection left = search::detect(search::examine(wide, test, at), test, options);
   if (left.significant) return std::nullopt;
   out.explains = true;
-  const double rarity = log_rarity_of_wrong_priors(out.parameters.size(), out.of);
+  const double rarity =
+      static_cast<double>(out.parameters.size()) * std::log(inference::SiteLimits::another);
   const double evidence = search::by_noise(left.nominal, search::declared_noise(wide)).either();
   return WrongPriors{std::move(out), rarity + evidence};
-}
-
-double log_rarity_of_wrong_priors(std::size_t k, std::size_t n) {
-  const auto all = static_cast<double>(n), some = static_cast<double>(k);
-  const double log_sets =
-      std::lgamma(all + 1.0) - std::lgamma(some + 1.0) - std::lgamma(all - some + 1.0);
-  return std::log(inference::SiteLimits::another) - some * std::numbers::ln2 - log_sets;
 }
 
 }  // namespace drift::diagnosis

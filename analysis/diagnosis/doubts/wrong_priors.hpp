@@ -18,8 +18,9 @@ std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
 struct WrongPriors {
   remark::BeyondPrior beyond;  ///< `explains`
   /// Log evidence of the nominal model with those priors, noise as declared or not, and how rare
-  /// such priors are: a size is as far off as it is found (as sizes of effects beyond their usual
-  /// ones are, inference/size_prior.hpp).
+  /// such priors are: as any number that a study says (SiteLimits::another), one prior is wrong of
+  /// 1000, and by as much as it is found to be (as sizes of effects beyond their usual ones are,
+  /// inference/size_prior.hpp).
   double log_evidence = 0.0;
 };
 
@@ -28,10 +29,5 @@ struct WrongPriors {
 std::optional<WrongPriors> wrong_priors(const FilterSpec& nominal, const MeasuredTest& test,
                                         const BatchResult& fit,
                                         const search::SearchOptions& options);
-
-/// Log of how rare it is that the priors of just these k of n parameters are wrong: of one study in
-/// SiteLimits::another some are, a further one is as likely as none, and one parameter as likely as
-/// another.
-double log_rarity_of_wrong_priors(std::size_t k, std::size_t n);
 
 }  // namespace drift::diagnosis
