@@ -247,7 +247,8 @@ struct RemarkLimits {
 /// When the latitude of the study is doubted.
 struct SiteLimits {
   /// Studies that say another latitude than the recording's, as of headings, and recordings whose
-  /// times are all too long or too short: one of 1000. Test: ClockDoubt.IsEvidentWhere...
+  /// times are all too long or too short, and priors that are wrong: one of 1000. Test:
+  /// ClockDoubt.IsEvidentWhere..., WrongPrior.IsARival...
   static constexpr double another = 1e-3;
   /// [deg] prior of the rest that a latitude is still off when it was found without effects that
   /// are there: wide against what they bend it by, within reach of a linear model.

@@ -50,6 +50,16 @@ double log_odds(double log_evidence, const Diagnosis& d) {
   return log_evidence + std::log(SiteLimits::another) - best;
 }
 
+/// What the evidence of causes on a case owes to the noise that was estimated without them: times
+/// are weighed by chi-square under one noise, and a gross misfit makes the other one large.
+double log_of_their_noise(const Diagnosis& d) {
+  const FitComparison& fit = d.fit;
+  if (!d.of_case || !std::isfinite(fit.log_likelihood_ratio)) return 0.0;
+  const double gain =
+      static_cast<double>(fit.dof) * (fit.chi2_per_dof_before - fit.chi2_per_dof_after);
+  return 0.5 * (fit.log_likelihood_ratio - gain);
+}
+
 bool worth_asking(const Diagnosis& d) {
   if (d.verdict == Verdict::unexplained) return true;
   // Parameters far outside their priors may hide it: Earth rate about Up is isotropic D_I.
@@ -177,7 +187,8 @@ std::optional<remark::TimesInstead> times_instead(const ClockOfMisfit& clock_of_
                              : stats::misfit_chance(clock->chi2_per_dof_after, dof) >=
                                    inference::SearchLimits::alpha;
   if (!as_well) return std::nullopt;
-  return remark::TimesInstead{*clock, std::exp(log_odds(clock->log_evidence, d))};
+  return remark::TimesInstead{*clock,
+                              std::exp(log_odds(clock->log_evidence + log_of_their_noise(d), d))};
 }
 
 std::optional<remark::TimesInstead> times_instead(const mc::Study& study,

@@ -71,10 +71,12 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
   if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);
       !own.empty() && d.verdict != Verdict::consistent)
     return own;
-  if (d.verdict != Verdict::named && remark_in<remark::TimesInstead>(d) != nullptr)
+  if (const auto* times = remark_in<remark::TimesInstead>(d);
+      times != nullptr && d.verdict != Verdict::named)
     return fmt::format(
-        "Next: look up the sample interval of the log, before anything is added to the {}.",
-        d.of_case ? "model" : "plan");
+        "Next: look up the sample interval of the log, whose times may all be {}, before anything "
+        "is added to the {}.",
+        times_off_text(times->clock), d.of_case ? "model" : "plan");
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)

@@ -43,14 +43,18 @@ std::string times_in_brief(const identification::ClockDoubt& clock) {
       clock.factor > 1.0 ? "short" : "long", with_sigma(clock.factor, clock.sigma));
 }
 
+std::string times_off_text(const identification::ClockDoubt& clock) {
+  return fmt::format("{:.2g} % too {}", 100.0 * std::abs(1.0 / clock.factor - 1.0),
+                     clock.factor > 1.0 ? "short" : "long");
+}
+
 std::string times_as_little_text(const identification::ClockDoubt& clock, double odds) {
   constexpr double decided = 19.0;  // to 1: a probability of 0.95
   return fmt::format(
-      "times (the clock of the log) that are all {:.2g} % too {} would leave as little{} (every "
-      "time "
-      "{} times as long)",
-      100.0 * std::abs(1.0 / clock.factor - 1.0), clock.factor > 1.0 ? "short" : "long",
-      odds > decided ? " and are far likelier" : "", with_sigma(clock.factor, clock.sigma));
+      "times (the clock of the log) that are all {} would leave as little{} (every time {} times "
+      "as long)",
+      times_off_text(clock), odds > decided ? " and are far likelier" : "",
+      with_sigma(clock.factor, clock.sigma));
 }
 
 Json times_json(const std::optional<identification::ClockDoubt>& clock) {

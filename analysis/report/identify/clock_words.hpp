@@ -18,6 +18,8 @@ std::string clock_next(const identification::ClockDoubt& clock, std::string_view
 std::string times_instead_text(const identification::ClockDoubt& clock);
 /// The same without the fits, where there is no room for more.
 std::string times_in_brief(const identification::ClockDoubt& clock);
+/// "0.2 % too long".
+std::string times_off_text(const identification::ClockDoubt& clock);
 /// "times that are all 0.2 % too long would leave as little (...)", of a cause that is not alone.
 /// odds: of the times against it.
 std::string times_as_little_text(const identification::ClockDoubt& clock, double odds);

@@ -83,7 +83,8 @@ Diagnosis less_mean() {
 TEST(LessTheMean, IsSaidWhereverSuchANumberStands) {
   Diagnosis d = less_mean();
   EXPECT_TRUE(says(report::sentence(d),
-                   "D_I_x = 150±10 deg/h/g, D_I_y = 150±10 deg/h/g, D_I_z = 150±10 deg/h/g, each "
+                   "D_I_x = 150±10 deg/h/g, 75 times its usual size, D_I_y = 150±10 deg/h/g, 75 "
+                   "times its usual size, D_I_z = 150±10 deg/h/g, 75 times its usual size, each "
                    "less the mean of the three)"))
       << report::sentence(d);
   const std::string table = report::text_of({report::what(d)});

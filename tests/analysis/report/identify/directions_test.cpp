@@ -24,8 +24,7 @@ TEST(IdentifyDirections, HasNoTableOfDirectionsWhereAllAreSeen) {
   EXPECT_EQ(said().find("known better from the prior"), std::string::npos);
   EXPECT_EQ(said().find(headings), std::string::npos);
   id.summaries[1].weak = 4;
-  EXPECT_NE(said().find(none + "4 are known better from the prior than from the data."),
-            std::string::npos);
+  EXPECT_NE(said().find(none + "4 are known better from"), std::string::npos) << said();
   id.summaries[1].weak = 1;
   EXPECT_NE(said().find(none + "1 is known better"), std::string::npos);
   // Of some the table stays.
