@@ -126,13 +126,18 @@ Probabilities probabilities(const search::Search& found, const search::Posterior
   return out;
 }
 
-/// Priors that are wrong instead, asked for where something is found, effect or noise.
+/// Priors that are wrong instead, asked for where something is found, effect or noise, that takes
+/// their parameters back to them: what leaves these where they are is no rival of wrong priors.
 std::optional<WrongPriors> priors_of(const FilterSpec& nominal, const MeasuredTest& test,
                                      const BatchResult& fit, const search::Search& found,
+                                     const search::Posterior& of_the_rest,
                                      const search::SearchOptions& options) {
-  const bool as_declared =
-      search::posterior_of(found).consistent >= inference::SearchLimits::credible;
+  const bool as_declared = of_the_rest.consistent >= inference::SearchLimits::credible;
   if (!found.significant && as_declared) return std::nullopt;
+  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+  if ((best || !found.significant) &&
+      beyond_prior(nominal, best ? best->after : found.nominal, options.alpha))
+    return std::nullopt;
   return wrong_priors(nominal, test, fit, options);
 }
 
@@ -164,9 +169,11 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
                                   : search::examine(nominal_filter, test, fitted.fit);
   stages.begin("search", 0.5);
   search::Search found = search::search(std::move(examined), test, options.search);
-  const auto wrong = priors_of(nominal_filter, test, fitted.fit, found, options.search);
+  const search::Posterior of_the_rest = search::posterior_of(found);
+  const auto wrong =
+      priors_of(nominal_filter, test, fitted.fit, found, of_the_rest, options.search);
   const search::Posterior posterior =
-      search::posterior_of(found, wrong ? wrong->log_evidence : search::never);
+      wrong ? search::posterior_of(found, wrong->log_evidence) : of_the_rest;
   search::give_settings_room(found, test);
   const search::Fitted& nominal = found.nominal;
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
@@ -175,8 +182,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
   const auto member_gains = best && found.significant ? judge_members(nominal, test, *best, found)
                                                       : std::vector<double>{};
-  const Judged judged =
-      judge(nominal, found, posterior, d.fit.held_out, member_gains, options.named_by);
+  // Where nothing is found to compete with, wrong priors are told beside any verdict.
+  const Judged judged = judge(nominal, found, found.significant && !best ? of_the_rest : posterior,
+                              d.fit.held_out, member_gains, options.named_by);
 
   stages.begin("locate", 0.06);
   // With the cause in the mean, what had been taken for noise because of it is none any more.

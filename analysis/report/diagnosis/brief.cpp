@@ -55,17 +55,18 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: correct the sign of {} in the recording, or in [recording] columns of the study, "
         "and diagnose again.",
         listed(reversed, "and"));
-  if (const std::string priors = priors_at_fault_text(d); !priors.empty())
-    return d.causes.empty()
-               ? fmt::format(
-                     "Next: correct {}, or widen it to hold what the fit takes, and diagnose "
-                     "again.",
-                     priors)
-               : fmt::format(
-                     "Next: look up {} before anything is added to the model; where it is wrong, "
-                     "correct it, or widen it to hold what the fit takes, and diagnose again.",
-                     priors);
   if (gravity_is_off(d)) return gravity_next("diagnose");
+  if (const std::string priors = priors_at_fault_text(d); !priors.empty()) {
+    const bool several = remark_in<remark::BeyondPrior>(d)->parameters.size() > 1;
+    return fmt::format(
+        "Next: {}correct {}, or widen {} to hold what the fit takes, and diagnose "
+        "again.",
+        d.causes.empty() ? ""
+                         : fmt::format("look up {} before anything is added to the model; where {} "
+                                       "wrong, ",
+                                       priors, several ? "they are" : "it is"),
+        !d.causes.empty() ? several ? "them" : "it" : priors, several ? "them" : "it");
+  }
   if (off_zero && d.verdict != Verdict::consistent)
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);

@@ -167,8 +167,6 @@ TEST(Thresholds, ACauseOrWrongPriorsIsAmbiguousUnlessTheseAreNotCredible) {
   EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.06), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.94), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.96), Verdict::consistent) << "but for the priors";
-  EXPECT_EQ(verdict_of(0.0, false, false, 2.0, 0.49), Verdict::unexplained);
-  EXPECT_EQ(verdict_of(0.0, false, false, 2.0, 0.51), Verdict::consistent);
 }
 
 TEST(Thresholds, WhatIsMoreProbableOutsideTheLibraryIsSaidBesideItsCause) {

@@ -75,7 +75,7 @@ TEST(WrongPrior, IsNoneWhereAllAreRight) {
 }
 
 /// A test that holds its platform level, by commands of which those about `axis` were written down
-/// with another weight of a pulse: its torquer's scale factor is off by twenty prior sigmas. A
+/// with another weight of a pulse: its torquer's scale factor is off by ten prior sigmas. A
 /// restraint of the float takes most of that up, at a size that is usual.
 Diagnosis with_pulses_of(double weight, std::string_view command) {
   PlanDefaults defaults;

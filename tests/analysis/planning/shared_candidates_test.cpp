@@ -54,8 +54,12 @@ class Shared {
 std::string page_in(const std::string& folder) {
   static const std::regex date("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ"),
       command("[^<>]*driftscope rank [^<>]*");
-  return std::regex_replace(std::regex_replace(text_of(folder + "/report.html"), date, "DATE"),
-                            command, "COMMAND");
+  std::string page = std::regex_replace(
+      std::regex_replace(text_of(folder + "/report.html"), date, "DATE"), command, "COMMAND");
+  // What to go on with lies in the folder, too.
+  for (std::size_t at; (at = page.find(folder)) != std::string::npos;)
+    page.replace(at, folder.size(), "FOLDER");
+  return page;
 }
 
 nlohmann::json ranking_in(const std::string& folder) {

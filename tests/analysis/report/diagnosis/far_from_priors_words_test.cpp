@@ -143,5 +143,33 @@ TEST(FarFromPriors, TheHeadlineOfAgreementHasTheParametersThatLieFarFromTheirPri
   EXPECT_EQ(brief.tone, report::Tone::good);
 }
 
+TEST(FarFromPriors, WrongPriorsStandBesideTheCauseThatImitatesThem) {
+  diagnosis::Diagnosis d = test::diagnosis(nominal());
+  d.verdict = diagnosis::Verdict::ambiguous;
+  d.remarks = tense(TermLibrary::find("D_F_y").value()).remarks;
+  auto& beyond = std::get<remark::BeyondPrior>(d.remarks.front());
+  beyond.explains = true;
+  d.probabilities.wrong_priors = 0.3;
+  report::InBrief brief = report::diagnosis_in_brief(d);
+  EXPECT_NE(brief.verdict.find("cannot tell which: either the prior of D_F_y (probability 0.30: "
+                               "with more room there nothing is missing), or "),
+            std::string::npos)
+      << brief.verdict;
+  EXPECT_EQ(brief.next,
+            "Next: look up the prior of D_F_y before anything is added to the model; where it is "
+            "wrong, correct it, or widen it to hold what the fit takes, and diagnose again.");
+  beyond.parameters.push_back(beyond.parameters.front());
+  brief = report::diagnosis_in_brief(d);
+  EXPECT_NE(brief.next.find("where they are wrong, correct them, or widen them"), std::string::npos)
+      << brief.next;
+  d.causes.clear();
+  d.verdict = diagnosis::Verdict::consistent;
+  brief = report::diagnosis_in_brief(d);
+  EXPECT_NE(brief.verdict.find("agrees with the nominal model but for the priors of D_F_y, D_F_y: "
+                               "with more room there nothing is missing."),
+            std::string::npos)
+      << brief.verdict;
+}
+
 }  // namespace
 }  // namespace drift::far_from_priors_words_test
