@@ -12,14 +12,21 @@
 namespace drift::strapdown::case_words_test {
 namespace {
 
-TEST(CaseWords, WhatHasNoNumberIsNotSaid) {
-  const mc::Study study =
-      mc::read_study_text(test::strapdown_study("45.75 deg", "9.8 m/s^2"), "study.toml");
+mc::Study of_twelve_dwells() {
+  return mc::read_study_text(test::strapdown_study("45.75 deg", "9.8 m/s^2"), "study.toml");
+}
+
+/// A unit without errors, held twelve times.
+CaseIdentification identified(const mc::Study& study) {
   test::StrapdownScript script;
   script.dwells = 12;
   script.omega_ie_l = study.site.omega_ie_l();
-  CaseIdentification id =
-      identify_case(study, case_study(study, strapdown_recording(script, Theta::Zero())));
+  return identify_case(study, case_study(study, strapdown_recording(script, Theta::Zero())));
+}
+
+TEST(CaseWords, WhatHasNoNumberIsNotSaid) {
+  const mc::Study study = of_twelve_dwells();
+  CaseIdentification id = identified(study);
   const auto said = [&] {
     return fmt::format("{}", fmt::join(report::case_report(study, id).brief.more.texts(), "\n"));
   };
@@ -70,13 +77,8 @@ TEST(CaseWords, AGravityThatIsOffIsSaidByBothCommands) {
 
 /// Noise that nothing explains is a misfit whatever the gravity: it is not of priors alone.
 TEST(CaseWords, AMisfitBesideAGravityThatIsOffStaysOne) {
-  const mc::Study study =
-      mc::read_study_text(test::strapdown_study("45.75 deg", "9.8 m/s^2"), "study.toml");
-  test::StrapdownScript script;
-  script.dwells = 12;
-  script.omega_ie_l = study.site.omega_ie_l();
-  CaseIdentification id =
-      identify_case(study, case_study(study, strapdown_recording(script, Theta::Zero())));
+  const mc::Study study = of_twelve_dwells();
+  CaseIdentification id = identified(study);
   EstimateResult& estimate = id.fits.front().fit.estimate;
   for (ParameterEstimate& p : estimate.parameters)
     if (TermLibrary::specs[p.param].group.view() == "K1")

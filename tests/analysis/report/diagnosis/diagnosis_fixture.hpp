@@ -42,6 +42,12 @@ inline mc::Study read_text(const test::ScratchFolder& folder, const std::string&
   return mc::read_study(folder.write(name, text));
 }
 
+/// Its nominal filter.
+inline FilterSpec nominal() {
+  const ScratchFolder folder;
+  return read_text(folder, "s.toml", nominal_study).filters.front();
+}
+
 /// A diagnosis made by hand: D_S_y was left out, found beside a confusable D_I_z; every list
 /// filled, a text that must be escaped, and a number that is none.
 inline diagnosis::Diagnosis diagnosis(const FilterSpec& nominal) {

@@ -17,17 +17,13 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 using nlohmann::json;
+using test::nominal;
 using test::nominal_study;
 
 const std::set<std::string> void_tags{"meta", "br", "img", "link", "hr"};
 
 std::vector<report::Figure> all_figures(const diagnosis::Diagnosis& d) {
   return test::figures_of(report::sections_of(d, report::diagnosis_sections));
-}
-
-FilterSpec nominal() {
-  const test::ScratchFolder folder;
-  return test::read_text(folder, "s.toml", nominal_study).filters.front();
 }
 
 TEST(DiagnosisJson, HasEveryKeyOfTheInterfaceWithTheTypeThatStandsThere) {

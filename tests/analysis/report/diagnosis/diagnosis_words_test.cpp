@@ -17,12 +17,8 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 using nlohmann::json;
+using test::nominal;
 using test::nominal_study;
-
-FilterSpec nominal() {
-  const test::ScratchFolder folder;
-  return test::read_text(folder, "s.toml", nominal_study).filters.front();
-}
 
 TEST(DiagnosisWords, OfTheStrongestWindowSayTheEquationOnlyIfItIsAnother) {
   diagnosis::Diagnosis d = test::diagnosis(nominal());

@@ -14,12 +14,7 @@ using namespace diagnosis;
 using namespace inference;
 using namespace search;
 using nlohmann::json;
-using test::nominal_study;
-
-FilterSpec nominal() {
-  const test::ScratchFolder folder;
-  return test::read_text(folder, "s.toml", nominal_study).filters.front();
-}
+using test::nominal;
 
 /// A consistent diagnosis whose fit takes one parameter 6.1 sigma from its prior, under a field
 /// that nobody measured.
