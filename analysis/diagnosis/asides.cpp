@@ -4,7 +4,6 @@
 
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "core/estimate/layout.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::diagnosis {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/search/by_noise.hpp"
 #include "analysis/search/setting_spread.hpp"
 
 namespace drift::diagnosis {
@@ -89,6 +90,10 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
   cause.set = static_cast<int>(set);
   cause.probability = found.probability[set];
   cause.log_bayes = r.log_bayes;
+  const inference::NoiseModel declared = search::declared_noise(nominal.filter);
+  cause.log_bayes_as_declared = r.log_bayes - (r.after.log_evidence() - nominal.log_evidence()) +
+                                search::by_noise(r.after, declared).declared -
+                                search::by_noise(nominal, declared).declared;
   const auto own = search::columns_of(nominal.set, {choice});
   const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
   cause.dof = contrast.dof;

@@ -169,11 +169,15 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
                                   : search::examine(nominal_filter, test, fitted.fit);
   stages.begin("search", 0.5);
   search::Search found = search::search(std::move(examined), test, options.search);
-  const search::Posterior of_the_rest = search::posterior_of(found);
-  const auto wrong =
-      priors_of(nominal_filter, test, fitted.fit, found, of_the_rest, options.search);
-  const search::Posterior posterior =
-      wrong ? search::posterior_of(found, wrong->log_evidence) : of_the_rest;
+  search::Evidence evidence = search::evidence_of(found);
+  search::Posterior posterior = search::posterior_of(evidence);
+  const auto wrong = priors_of(nominal_filter, test, fitted.fit, found, posterior, options.search);
+  // Where nothing is found to compete with, wrong priors are told beside any verdict.
+  const bool rivals = wrong && !(found.significant && found.sets.empty());
+  if (rivals) {
+    evidence.wrong_priors = wrong->log_evidence;
+    posterior = search::posterior_of(evidence);
+  }
   search::give_settings_room(found, test);
   const search::Fitted& nominal = found.nominal;
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
@@ -182,9 +186,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.fit = compared(nominal, found, test, options, recording_ends, stages);
   const auto member_gains = best && found.significant ? judge_members(nominal, test, *best, found)
                                                       : std::vector<double>{};
-  // Where nothing is found to compete with, wrong priors are told beside any verdict.
-  const Judged judged = judge(nominal, found, found.significant && !best ? of_the_rest : posterior,
-                              d.fit.held_out, member_gains, options.named_by);
+  const Judged judged =
+      judge(nominal, found, posterior, d.fit.held_out, member_gains, options.named_by);
 
   stages.begin("locate", 0.06);
   // With the cause in the mean, what had been taken for noise because of it is none any more.
@@ -200,7 +203,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
 
   // A cause moves parameters: they are looked at with it in the model.
   const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
-  const bool or_priors = wrong && (judged.or_priors || (found.significant && !best));
+  const bool or_priors = wrong && (judged.or_priors || !rivals);
   const auto beyond = or_priors ? std::optional(wrong->beyond)
                                 : beyond_prior(nominal_filter, in_the_model, options.search.alpha);
 

@@ -69,9 +69,8 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   const double noise = posterior.consistent + posterior.noise_only;
   // Chance is what is more probable; noise or priors that explain the same as an effect must be
   // credible.
-  const bool competes = best && (found.noise_alone || out.or_priors);
-  if (noise + posterior.wrong_priors > (competes ? credible : inference::SearchLimits::chance))
-    return out;
+  if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
+  if (noise + posterior.wrong_priors > credible) return out;
   const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
   const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
     return gain >= inference::WeighLimits::held_out;

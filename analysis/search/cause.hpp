@@ -71,8 +71,9 @@ struct Cause {
       std::numeric_limits<double>::quiet_NaN();  ///< log score that its absence costs; of
                                                  ///< simultaneous causes
   double probability = 0.0;                      ///< of its set among the sets that are listed
-  double log_bayes = 0.0;   ///< log evidence for its set against the nominal model
-  double size_sigma = 0.0;  ///< size needed, in prior sigmas
+  double log_bayes = 0.0;              ///< log evidence for its set against the nominal model
+  double log_bayes_as_declared = 0.0;  ///< the same, either under the noise that is declared
+  double size_sigma = 0.0;             ///< size needed, in prior sigmas
   int set = 0;  ///< simultaneous causes share a number; alternatives have different ones
   std::vector<Confusable> confusable_with;
 };

@@ -15,14 +15,6 @@ namespace {
 using inference::PosteriorPrior;
 using inference::WeighLimits;
 
-/// Of the nominal model. Where effects took the place of noise, that noise is one more way in which
-/// nothing but noise may be there.
-ByNoise by_noise(const Search& found, const inference::NoiseModel& declared) {
-  ByNoise out = by_noise(found.nominal, declared);
-  if (found.noise_alone) out.estimated = log_sum(out.estimated, found.noise_alone->log_evidence());
-  return out;
-}
-
 bool can_be_seen(const Fitted& e, std::size_t candidate) {
   return e.scores[candidate].visible > 0.0;
 }
@@ -142,16 +134,14 @@ Posterior posterior_of(const Evidence& e) {
   return out;
 }
 
-Posterior posterior_of(const Search& found, double wrong_priors) {
+Evidence evidence_of(const Search& found) {
   const Fitted& e = found.nominal;
   const inference::NoiseModel declared = declared_noise(e.filter);
   const ByNoise nothing = by_noise(found, declared);
   const LibraryPrior prior(e.set, [&](std::size_t k) { return can_be_seen(e, k); });
-  return posterior_of(Evidence{nothing.declared, nothing.estimated,
-                               log_outside(found, prior, declared, nothing),
-                               found.significant ? explanations(found, prior, declared)
-                                                 : singles(e, prior, nothing.either()),
-                               wrong_priors});
+  return {nothing.declared, nothing.estimated, log_outside(found, prior, declared, nothing),
+          found.significant ? explanations(found, prior, declared)
+                            : singles(e, prior, nothing.either())};
 }
 
 }  // namespace drift::search

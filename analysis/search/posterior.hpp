@@ -44,7 +44,10 @@ struct Evidence {
 Posterior posterior_of(const Evidence& evidence);
 
 /// Of a search that found nothing significant: by the linearised scores of single candidates;
-/// otherwise of the explanations that were fitted. wrong_priors: as in Evidence.
-Posterior posterior_of(const Search& found, double wrong_priors = never);
+/// otherwise of the explanations that were fitted. Nothing of wrong priors.
+Evidence evidence_of(const Search& found);
+inline Posterior posterior_of(const Search& found) {
+  return posterior_of(evidence_of(found));
+}
 
 }  // namespace drift::search

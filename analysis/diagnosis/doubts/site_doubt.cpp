@@ -36,7 +36,9 @@ bool has_no_usual_size(const search::Cause& cause) {
 
 /// Log odds of another latitude, or of other times, against the effects that were found: one study
 /// of 1000 says another latitude, and one recording other times; of the effects of the library one
-/// is as likely as another. Infinite where none was found.
+/// is as likely as another. Infinite where none was found. Latitudes and times are weighed under
+/// the noise of the better fit: on a case that is as the rows scatter, which is declared, and so
+/// are causes; of a platform under the noise that was found with them, which may drive it.
 double log_odds(double log_evidence, const Diagnosis& d) {
   std::size_t visible = 0;
   for (const search::CandidateScore& c : d.candidates) visible += c.dof > 0 ? 1 : 0;
@@ -45,19 +47,10 @@ double log_odds(double log_evidence, const Diagnosis& d) {
   double best = -std::numeric_limits<double>::infinity();
   for (const search::Cause& c : d.causes) {
     const auto together = std::ranges::count(d.causes, c.set, &search::Cause::set);
-    best = std::max(best, c.log_bayes + static_cast<double>(together) * one_effect);
+    const double log_bayes = d.of_case ? c.log_bayes_as_declared : c.log_bayes;
+    best = std::max(best, log_bayes + static_cast<double>(together) * one_effect);
   }
   return log_evidence + std::log(SiteLimits::another) - best;
-}
-
-/// What the evidence of causes on a case owes to the noise that was estimated without them: times
-/// are weighed by chi-square under one noise, and a gross misfit makes the other one large.
-double log_of_their_noise(const Diagnosis& d) {
-  const FitComparison& fit = d.fit;
-  if (!d.of_case || !std::isfinite(fit.log_likelihood_ratio)) return 0.0;
-  const double gain =
-      static_cast<double>(fit.dof) * (fit.chi2_per_dof_before - fit.chi2_per_dof_after);
-  return 0.5 * (fit.log_likelihood_ratio - gain);
 }
 
 bool worth_asking(const Diagnosis& d) {
@@ -187,8 +180,7 @@ std::optional<remark::TimesInstead> times_instead(const ClockOfMisfit& clock_of_
                              : stats::misfit_chance(clock->chi2_per_dof_after, dof) >=
                                    inference::SearchLimits::alpha;
   if (!as_well) return std::nullopt;
-  return remark::TimesInstead{*clock,
-                              std::exp(log_odds(clock->log_evidence + log_of_their_noise(d), d))};
+  return remark::TimesInstead{*clock, std::exp(log_odds(clock->log_evidence, d))};
 }
 
 std::optional<remark::TimesInstead> times_instead(const mc::Study& study,

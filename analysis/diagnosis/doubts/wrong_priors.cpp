@@ -86,7 +86,7 @@ std::optional<WrongPriors> wrong_priors(const FilterSpec& nominal, const Measure
   out.explains = true;
   const double rarity =
       static_cast<double>(out.parameters.size()) * std::log(inference::SiteLimits::another);
-  const double evidence = search::by_noise(left.nominal, search::declared_noise(wide)).either();
+  const double evidence = search::by_noise(left, search::declared_noise(wide)).either();
   return WrongPriors{std::move(out), rarity + evidence};
 }
 

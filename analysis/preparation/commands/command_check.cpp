@@ -157,17 +157,19 @@ void check_commands(const mc::Study& study, const Recording& recording, const Ti
     return say(wrong, columns);
   }
   bool told = false;
-  for (const Multiplied& m : multiplied(study, all)) {
+  const double turns = rms_turn(all);
+  const bool stands = stands_level(all, study.site);
+  for (const Multiplied& m : stands ? multiplied(study, all) : std::vector<Multiplied>{}) {
     // Drift may turn the platform as a small part of a command does: that is no more than remarked.
     const bool large = m.most >= command_room, refused = large && ignored;
-    const double turns = rms_turn(all);
-    if (!stands_level(all, study.site)) break;
     const std::string where = fmt::format(
         "in all {} level dwells, in which the platform {}",
         std::ranges::count(all, CommandLaw::level, &Commanded::law),
         refused ? "stands"
                 : fmt::format("turns by {:.2g} deg/h (rms)", turns / unit::deg_per_h.to_si));
-    const std::string text = factor_text(m, recording.find("cmd_x")->unit, where);
+    const std::string_view first =
+        command_channels.names[static_cast<std::size_t>(m.columns.front())];
+    const std::string text = factor_text(m, recording.find(first)->unit, where);
     say(refused ? wrong : remarks, refused ? text : text + ". The recorded commands are used");
     told = told || large;
   }

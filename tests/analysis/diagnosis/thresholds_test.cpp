@@ -167,6 +167,8 @@ TEST(Thresholds, ACauseOrWrongPriorsIsAmbiguousUnlessTheseAreNotCredible) {
   EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.06), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.94), Verdict::ambiguous);
   EXPECT_EQ(verdict_of(0.0, true, false, 2.0, 0.96), Verdict::consistent) << "but for the priors";
+  EXPECT_EQ(verdict_of(0.6, true, false, 2.0, 0.0), Verdict::consistent);
+  EXPECT_EQ(verdict_of(0.6, true, false, 2.0, 0.06), Verdict::consistent) << "no less nothing";
 }
 
 TEST(Thresholds, WhatIsMoreProbableOutsideTheLibraryIsSaidBesideItsCause) {
