@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "analysis/preparation/input_thresholds.hpp"
-#include "core/base/decompose.hpp"
+#include "analysis/strapdown/rate_about_up.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
@@ -42,25 +42,17 @@ std::optional<bool> earth_as_at(const Site& site, const std::vector<Dwell>& dwel
                                 const ColumnsAs& as) {
   if (dwells.size() < MirrorLimits::rests) return std::nullopt;
   const double expected = site.omega_ie_l().z();
-  const auto n = static_cast<Eigen::Index>(dwells.size());
-  MatX rows(n, 4);
-  VecX read(n);
-  for (Eigen::Index d = 0; d < n; ++d) {
-    const Dwell& dwell = dwells[static_cast<std::size_t>(d)];
-    const Vec3 up = as.accelerometers.of(dwell.acc).normalized();
-    rows.row(d) << up.transpose(), 1.0;
-    read[d] = as.gyros.of(dwell.gyro).dot(up);
+  std::vector<Vec3> up, gyro;
+  for (const Dwell& dwell : dwells) {
+    up.push_back(as.accelerometers.of(dwell.acc).normalized());
+    gyro.push_back(as.gyros.of(dwell.gyro));
   }
-  const MatX normal = rows.transpose() * rows;
-  const VecX fit = solve_symmetric(normal, VecX(rows.transpose() * read));
-  const VecX last = solve_symmetric(normal, VecX(VecX::Unit(4, 3)));
-  const double variance = last[3] * (read - rows * fit).squaredNorm() / static_cast<double>(n - 4);
-  // The attitudes tell rate from drift: its variance is no larger than that of one rest.
-  const bool told = last[3] > 0.0 && last[3] <= 1.0;
-  if (!told || !(MirrorLimits::sigmas * std::sqrt(variance) < std::abs(expected)) ||
-      !(std::abs(std::abs(fit[3]) - std::abs(expected)) < MirrorLimits::room * std::abs(expected)))
+  const auto read = rate_about_up(up, gyro);
+  if (!read || !(MirrorLimits::sigmas * read->sigma < std::abs(expected)) ||
+      !(std::abs(std::abs(read->rate) - std::abs(expected)) <
+        MirrorLimits::room * std::abs(expected)))
     return std::nullopt;
-  return fit[3] * expected > 0.0;
+  return read->rate * expected > 0.0;
 }
 
 /// A change that explains what is seen.

@@ -9,6 +9,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/input_thresholds.hpp"
+#include "analysis/strapdown/rate_about_up.hpp"
 #include "core/base/check.hpp"
 #include "core/base/words.hpp"
 
@@ -133,25 +134,17 @@ struct EarthAboutUp {
   double part = 0.0, sigma = 0.0;
 };
 
-/// Least squares of a drift of each gyro and one rate about Up; nothing of dwells too few.
 std::optional<EarthAboutUp> earth_about_up(const std::vector<Dwell>& dwells, const Site& site) {
   const double there = site.omega_ie_l()[2];
-  const auto n = static_cast<Eigen::Index>(dwells.size());
-  if (n <= 4 || there == 0.0) return std::nullopt;
-  MatX A(n, 4);
-  VecX read(n);
-  for (Eigen::Index d = 0; d < n; ++d) {
-    const Dwell& dwell = dwells[static_cast<std::size_t>(d)];
-    const Vec3 up = dwell.acc.normalized();
-    A.row(d) << up.transpose(), 1.0;
-    read[d] = up.dot(dwell.gyro);
+  if (there == 0.0) return std::nullopt;
+  std::vector<Vec3> up, gyro;
+  for (const Dwell& dwell : dwells) {
+    up.push_back(dwell.acc.normalized());
+    gyro.push_back(dwell.gyro);
   }
-  const MatX inverse = (A.transpose() * A).inverse();
-  const VecX x = inverse * (A.transpose() * read);
-  const double variance = (read - A * x).squaredNorm() / static_cast<double>(n - 4);
-  const EarthAboutUp earth{x[3] / there, std::sqrt(variance * inverse(3, 3)) / std::abs(there)};
-  return std::isfinite(earth.part) && std::isfinite(earth.sigma) ? std::optional(earth)
-                                                                 : std::nullopt;
+  const auto read = rate_about_up(up, gyro);
+  if (!read) return std::nullopt;
+  return EarthAboutUp{read->rate / there, read->sigma / std::abs(there)};
 }
 
 /// The column that is wrong, and what of it.
