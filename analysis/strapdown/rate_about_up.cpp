@@ -8,7 +8,7 @@ namespace drift::strapdown {
 
 std::optional<RateAboutUp> rate_about_up(const std::vector<Vec3>& up,
                                          const std::vector<Vec3>& gyro) {
-  constexpr Eigen::Index unknowns = 4;
+  constexpr Eigen::Index unknowns = 4, rate = 3;
   const auto n = static_cast<Eigen::Index>(up.size());
   if (n <= unknowns) return std::nullopt;
   MatX rows(n, unknowns);
@@ -20,11 +20,14 @@ std::optional<RateAboutUp> rate_about_up(const std::vector<Vec3>& up,
   }
   const MatX normal = rows.transpose() * rows;
   const VecX fit = solve_symmetric(normal, VecX(rows.transpose() * read));
-  const double of_one = solve_symmetric(normal, VecX(VecX::Unit(unknowns, 3)))[3];
+  const VecX of_rate = solve_symmetric(normal, VecX(VecX::Unit(unknowns, rate)));
+  // A pivot that vanishes is left out: where attitudes leave the rate to the drifts that solves
+  // nothing.
+  const bool solved = (normal * of_rate - VecX::Unit(unknowns, rate)).norm() < 1e-6;
   const double variance = (read - rows * fit).squaredNorm() / static_cast<double>(n - unknowns);
-  const RateAboutUp found{fit[3], std::sqrt(variance * of_one)};
-  if (!(of_one > 0.0 && of_one <= 1.0) || !std::isfinite(found.rate) || !std::isfinite(found.sigma))
-    return std::nullopt;
+  const RateAboutUp found{fit[rate], std::sqrt(variance * of_rate[rate])};
+  const bool told = solved && of_rate[rate] > 0.0 && of_rate[rate] <= 1.0;
+  if (!told || !std::isfinite(found.rate) || !std::isfinite(found.sigma)) return std::nullopt;
   return found;
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace drift::strapdown {
 namespace {
@@ -42,6 +44,17 @@ TEST(RateAboutUp, HasTheSigmaOfTheScatter) {
 TEST(RateAboutUp, IsNotToldWhereTheAttitudesDoNotTellItFromDrift) {
   const std::vector<Vec3> same(6, Vec3::UnitZ());
   EXPECT_FALSE(rate_about_up(same, read_at(same, 5.2e-5)));
+  // Turned about an axis of the case that leans: the drift along it is read in all rests alike.
+  std::vector<Vec3> leaning;
+  for (int k = 0; k < 8; ++k) {
+    const double turn = 0.7853981633974483 * k;
+    leaning.push_back(Vec3(0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.8));
+  }
+  EXPECT_FALSE(rate_about_up(leaning, read_at(leaning, 5.2e-5)));
+  std::vector<Vec3> exact;
+  for (const auto& [x, y] : {std::pair{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}})
+    exact.insert(exact.end(), 2, Vec3(0.6 * x, 0.6 * y, 0.8));
+  EXPECT_FALSE(rate_about_up(exact, read_at(exact, 5.2e-5))) << "singular to the last bit";
   const std::vector<Vec3> four(cardinal.begin(), cardinal.begin() + 4);
   EXPECT_FALSE(rate_about_up(four, read_at(four, 5.2e-5))) << "no residual";
 }
