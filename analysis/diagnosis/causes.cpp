@@ -90,10 +90,6 @@ search::Cause cause_of(const search::Fitted& nominal, const search::Search& foun
   cause.set = static_cast<int>(set);
   cause.probability = found.probability[set];
   cause.log_bayes = r.log_bayes;
-  const inference::NoiseModel declared = search::declared_noise(nominal.filter);
-  cause.log_bayes_as_declared = r.log_bayes - (r.after.log_evidence() - nominal.log_evidence()) +
-                                search::by_noise(r.after, declared).declared -
-                                search::by_noise(nominal, declared).declared;
   const auto own = search::columns_of(nominal.set, {choice});
   const inference::Contrast contrast = inference::make_contrast(p.C, p.raw, own);
   cause.dof = contrast.dof;
@@ -192,15 +188,26 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
   const inference::Projected& p = nominal.projected;
   CausesFound out;
   std::vector<std::vector<int>> columns;
-  for (std::size_t set = 0; set < found.sets.size(); ++set)
-    for (std::size_t which = 0; which < found.sets[set].choices.size(); ++which) {
-      const search::Choice& choice = found.sets[set].choices[which];
+  const auto declared = search::declared_noise(nominal.filter);
+  // What the evidence of a model gains where only the declared noise is allowed to it.
+  const auto as_declared = [&](const search::Fitted& f) {
+    return search::by_noise(f, declared).declared - f.log_evidence();
+  };
+  const double as_declared_alone = found.sets.empty() ? 0.0 : as_declared(nominal);
+  for (std::size_t set = 0; set < found.sets.size(); ++set) {
+    const search::Refit& refit = found.sets[set];
+    const double log_bayes_as_declared =
+        refit.log_bayes + as_declared(refit.after) - as_declared_alone;
+    for (std::size_t which = 0; which < refit.choices.size(); ++which) {
+      const search::Choice& choice = refit.choices[which];
       columns.push_back(search::columns_of(nominal.set, {choice}));
       out.causes.push_back(cause_of(nominal, found, set, which));
+      out.causes.back().log_bayes_as_declared = log_bayes_as_declared;
       out.causes.back().confusable_with =
           confusable_with(nominal, out.causes.back(), columns.back());
       out.cosines.labels.push_back(nominal.set.candidates[choice.candidate].label);
     }
+  }
   const auto n = static_cast<Eigen::Index>(columns.size());
   out.cosines.cosine = MatX::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
