@@ -13,7 +13,7 @@ changes a file. A state is what a disk may hold if the power fails after any one
   of a folder with its fsync, that of a file with its own.
 
 From every state the same command must end as if nothing had happened, with the same digest, nothing
-damaged, and with every run that had been stored before the transaction before the last.
+damaged, and with every run that had been stored, the folder's fsync after its transaction included.
 """
 import collections
 import pathlib
@@ -233,7 +233,7 @@ def check(synthetic, library, scratch, states, seed):
             disk.apply(*journal[done])
             done += 1
         put(folder, disk.left(draw))
-        last = [k for k in ends if k < moment][:-1]  # what the one before the last has stored
+        last = [k for k in ends if k + 1 < moment]  # and the folder is synced, the call after it
         floor = max((before[k] for k in last if k in before), default=0)
         what = f"power fails after call {moment} of {len(journal)} ({' '.join(journal[moment - 1][0])}), seed {seed}"
         shutil.rmtree(scratch / "left", ignore_errors=True)

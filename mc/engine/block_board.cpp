@@ -116,17 +116,20 @@ std::vector<BlockBoard::Ticket> BlockBoard::take(const Most& most) {
   return tickets;
 }
 
-std::optional<StoredBlock> BlockBoard::finish(const Ticket& ticket, const RunOutcome& outcome) {
+std::optional<StoredBlock> BlockBoard::finish(const Ticket& ticket, const RunOutcome& outcome,
+                                              Failed failed) {
   const std::scoped_lock lock(guard_);
   InFlight& b = *ticket.block;
   b.stored.block.status[ticket.offset] = outcome.status;
   b.runs[ticket.offset] = InFlight::Run::done;
   b.times[ticket.offset] = {outcome.integration_s, outcome.filter_s, outcome.total_s};
   add(b.stored.times, b.times[ticket.offset]);
-  if (outcome.status != RunStatus::ok)
+  if (outcome.status != RunStatus::ok) {
+    b.has_failed = true;
     b.stored.failures.push_back(
         {ticket.run(), outcome.status, outcome.cause, outcome.t_failed, outcome.total_s});
-  if (--b.left > 0) return std::nullopt;
+  }
+  if (--b.left > 0 || (b.has_failed && failed == Failed::left_out)) return std::nullopt;
   begun_.erase({b.stored.block.point, b.stored.block.first});
   sort_failures(b.stored.failures);
   return std::move(b.stored);

@@ -27,6 +27,7 @@ class BlockBoard {
     std::size_t next = 0;  ///< the first run to be handed out
     std::size_t left = 0;  ///< runs that have no result yet
     std::size_t taken_over = 0;
+    bool has_failed = false;  ///< a run of it, here
     enum class Run : char { to_do, done, taken_over };
     std::vector<Run> runs;
     std::vector<BlockTimes> times;  ///< of the runs done
@@ -55,8 +56,10 @@ class BlockBoard {
 
   /// Runs of one block to be executed; nothing if there is no more. most: how many, of a point.
   std::vector<Ticket> take(const Most& most);
-  /// Takes back an executed run; the block if that was its last.
-  std::optional<StoredBlock> finish(const Ticket& ticket, const RunOutcome& outcome);
+  enum class Failed { kept, left_out };
+  /// Takes back an executed run; the block if that was its last. `left_out`: one with a run that
+  /// failed here stays unfinished.
+  std::optional<StoredBlock> finish(const Ticket& ticket, const RunOutcome& outcome, Failed failed);
 
   /// What was taken over from earlier sessions into the blocks begun so far.
   struct TakenOver {
@@ -64,7 +67,6 @@ class BlockBoard {
   };
   TakenOver taken_over() const;
 
-  enum class Failed { kept, left_out };
   /// The groups executed here, as a part each, of blocks that are not finished; `left_out`: but
   /// those with a failed run. No run may be at work.
   std::vector<StoredBlock> unfinished(Failed failed) const;

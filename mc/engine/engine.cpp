@@ -11,8 +11,7 @@
 #include "mc/engine/block_queue.hpp"
 #include "mc/engine/outcome_of_ranks.hpp"
 #include "mc/engine/rule_follower.hpp"
-#include "mc/engine/stop_signals.hpp"
-#include "mc/engine/time_for_groups.hpp"
+#include "mc/engine/session_stop.hpp"
 #include "mc/engine/work_plan.hpp"
 #include "mc/store/store.hpp"
 #include "mc/store/study_reader.hpp"
@@ -35,12 +34,12 @@ class Engine {
         folder_(folder),
         ranks_(ranks),
         sink_(sink),
+        stop_(options.max_wall, ranks),
         store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
         reader_(folder),
         rules_(work.stop_rules, options.runs, reader_),
         plan_(work, options, ranks, reader_, rules_),
-        board_([this] { return plan_.next(); }, columns()),
-        time_(options.max_wall) {}
+        board_([this] { return plan_.next(); }, columns()) {}
 
   StudyOutcome run() {
     store_.begin_session(options_.runs);
@@ -49,50 +48,42 @@ class Engine {
     kept_before_ = runs_of(parts);
     board_.go_on_from(std::move(parts), reader_.manifest().identity.block_size);
     execute();
-    if (ranks_.largest(stop_ != none) == 0 && plan_.mend()) execute();
+    if (ranks_.largest(stop_.has_come()) == 0 && plan_.mend()) execute();
     return finish();
   }
 
  private:
-  enum Stop : int { none, asked, full_time, failed_run, elsewhere, broken };
-
   void execute() {
     const ThreadCount told(options_.threads);  // one thread: runs spread nothing either
     const int threads = usual_threads();
     require_threads(threads);
 #pragma omp parallel num_threads(threads)
     work_through();
-    if (stop_ != none && stop_ != broken) keep();
+    stop_.tell_others();
+    if (stop_.has_come() && !stop_.is_broken()) keep();
   }
 
   /// A session may be shorter than a block: what it executed of one is where the next goes on. Only
-  /// the run at which `fail_fast` stops is left out, so that the same call stops at it again.
+  /// runs at which `fail_fast` would stop are left out, so that the same call stops at one again.
   void keep() {
     try {
-      const auto parts = board_.unfinished(stop_ == failed_run ? BlockBoard::Failed::left_out
-                                                               : BlockBoard::Failed::kept);
+      const auto parts = board_.unfinished(failed_runs());
       store_.keep(parts);
       ranks_.add(Counter::kept, runs_of(parts));
     } catch (...) {
       queue_.give_up(std::current_exception());
-      stop_ = broken;
+      stop_.breaks();
     }
+  }
+
+  BlockBoard::Failed failed_runs() const {
+    return options_.fail_fast ? BlockBoard::Failed::left_out : BlockBoard::Failed::kept;
   }
 
   std::vector<std::size_t> columns() const {
     std::vector<std::size_t> list;
     for (const PointInfo& p : reader_.manifest().points) list.push_back(p.columns.size());
     return list;
-  }
-
-  bool must_stop() {
-    int expected = none;
-    if (signals_.caught() != 0) {
-      stop_.compare_exchange_strong(expected, asked);
-    } else if (time_.is_over(seconds())) {
-      stop_.compare_exchange_strong(expected, full_time);
-    }
-    return stop_ != none;
   }
 
   double seconds() const {
@@ -105,36 +96,35 @@ class Engine {
       std::size_t point = 0;
       const auto most = [&](std::size_t of) { return work_.points[of].task->together(); };
       std::vector<RunWork> runs;
-      while (!must_stop()) {
+      while (!stop_.must_stop(seconds())) {
         const auto tickets = board_.take(most);
         if (tickets.empty()) break;
-        time_.begin();
+        stop_.time().begin();
         const double begun = seconds();
         if (!worker || point != tickets[0].point())
           worker = work_.points[point = tickets[0].point()].task->worker();
         runs.clear();
         for (const BlockBoard::Ticket& t : tickets) runs.push_back({t.run(), t.row(), {}});
         guarded_runs(*worker, runs);
-        time_.end(seconds() - begun);
+        stop_.time().end(seconds() - begun);
         for (std::size_t k = 0; k < runs.size(); ++k) finish(tickets[k], runs[k].outcome);
         tell();
       }
     } catch (...) {
       queue_.give_up(std::current_exception());
-      stop_ = broken;
+      stop_.breaks();
     }
   }
 
   void finish(const BlockBoard::Ticket& ticket, const RunOutcome& outcome) {
     if (outcome.status != RunStatus::ok) {
       ++own_failed_;
-      int expected = none;
-      if (options_.fail_fast && stop_.compare_exchange_strong(expected, failed_run))
+      if (options_.fail_fast && stop_.is_because(SessionStop::failed_run))
         failed_first_ = {ticket.point(),
                          {ticket.run(), outcome.status, outcome.cause, outcome.t_failed, 0.0}};
     }
     ++own_done_;
-    if (auto block = board_.finish(ticket, outcome)) {
+    if (auto block = board_.finish(ticket, outcome, failed_runs())) {
       ranks_.add(Counter::taken_over, ticket.block->taken_over);
       queue_.store(std::move(*block));
     }
@@ -147,9 +137,6 @@ class Engine {
     for (const StoredBlock& b : batch) runs += b.block.status.size(), failed += b.failures.size();
     ranks_.add(Counter::done, runs);
     if (failed > 0) ranks_.add(Counter::failed, failed);
-    int expected = none;
-    if (ranks_.size() > 1 && ranks_.add(Counter::stop, 0) > 0)
-      stop_.compare_exchange_strong(expected, elsewhere);
   }
 
   void tell() {
@@ -183,35 +170,16 @@ class Engine {
     return std::max(ranks_.add(Counter::done, 0), taken_over) - taken_over;
   }
 
-  ExitCode stop_code() const {
-    switch (stop_) {
-      case asked:
-        return code_of_stop(signals_.caught());
-      case full_time:
-        return ExitCode::wall_time;
-      case failed_run:
-        return ExitCode::failed_runs;
-      case broken:
-        return code_of(queue_.error());
-      default:
-        return ExitCode::ok;
-    }
-  }
-
   /// All ranks come here, whatever happened; the gravest answer is everyone's.
-  ExitCode agree(ExitCode own) {
-    if (stop_ != none && stop_ != elsewhere) ranks_.add(Counter::stop, 1);
-    return of_gravity(ranks_.largest(gravity(own)));
-  }
-
   StudyOutcome finish() {
     StudyOutcome outcome;
     outcome.leader = ranks_.leader();
     outcome.failed_first = failed_first_;
     ranks_.add(Counter::executed, own_done_);
-    outcome.code = agree(stop_code());
+    const ExitCode defect = queue_.error() ? code_of(queue_.error()) : ExitCode::ok;
+    outcome.code = of_gravity(ranks_.largest(gravity(stop_.code(defect))));
     if (queue_.error()) {
-      end_session(code_of(queue_.error()));
+      end_session(defect);
       std::rethrow_exception(queue_.error());
     }
     if (sink_ && outcome.leader) sink_(progress());
@@ -224,7 +192,7 @@ class Engine {
     outcome.taken_over = ranks_.add(Counter::taken_over, 0);
     const std::uint64_t saved = outcome.done + outcome.kept;
     outcome.dropped = std::max(ranks_.add(Counter::executed, 0), saved) - saved;
-    outcome.longest_group = time_.longest();
+    outcome.longest_group = stop_.time().longest();
     outcome.failed = ranks_.add(Counter::failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
@@ -237,7 +205,8 @@ class Engine {
 
   void end_session(ExitCode code, bool complete = false) {
     try {
-      if (complete) store_.forget_kept();
+      // What a longer study began is not of a shorter one.
+      if (complete && options_.runs >= reader_.runs()) store_.forget_kept();
       store_.end_session(static_cast<int>(code));
     } catch (const InputError&) {  // the results are stored; a full disk has no room for this
     }
@@ -268,17 +237,15 @@ class Engine {
   const std::string& folder_;
   Ranks& ranks_;
   const ProgressSink& sink_;
-  StopSignals signals_;
+  SessionStop stop_;
   Clock::time_point started_ = Clock::now();
   WorkerStore store_;
   StudyReader reader_;
   RuleFollower rules_;
   WorkPlan plan_;
   BlockBoard board_;
-  TimeForGroups time_;
   std::uint64_t kept_before_ = 0;
   std::atomic<std::uint64_t> own_done_ = 0, own_failed_ = 0;
-  std::atomic<int> stop_ = none;
   std::optional<StudyOutcome::FailedRun> failed_first_;  ///< by the thread that stopped for it
   std::mutex progress_guard_;
   BlockQueue queue_{[this](const std::vector<StoredBlock>& batch) { commit(batch); }};

@@ -22,8 +22,8 @@ struct EngineOptions {
   int threads = 0;                      ///< 0: all
   WorkerShare share = {};               ///< ignored with several ranks
   std::optional<double> max_wall = {};  ///< [s] of the clock
-  bool fail_fast = false;               ///< stop at the first failed run
-  std::uint64_t shuffle = 0;            ///< not 0: take the blocks in this random order (for tests)
+  bool fail_fast = false;     ///< stop at the first failed run; no block with one is stored
+  std::uint64_t shuffle = 0;  ///< not 0: take the blocks in this random order (for tests)
 };
 
 /// What is done so far, of the whole study: other workers' earlier runs and all ranks included.

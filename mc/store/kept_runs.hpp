@@ -16,7 +16,9 @@ namespace drift::mc {
 ///   partial           point, first_run, runs, CPU seconds, checksum, payload (block_codec.hpp)
 ///   partial_failures  point, run, status, cause, t_s, seconds
 /// A part holds runs that were executed together. It is no result: only a session that goes on with
-/// its block reads it. Its checksum is none that a block could have.
+/// its block reads it, and one whose block another worker has stored is read by nobody and goes
+/// with the next session of its own worker that finds the study complete. Its checksum is none that
+/// a block could have.
 class KeptRuns {
  public:
   KeptRuns(Database& db, const Manifest& manifest) : db_(db), manifest_(manifest) {}

@@ -102,6 +102,8 @@ class WorkerFile {
   Database db_;
 };
 
+class WorkerWriter;
+
 /// The file of this worker, open for writing by one process at a time.
 class WorkerStore {
  public:
@@ -126,13 +128,12 @@ class WorkerStore {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  class Writer;
   void set_aside();
 
   std::string path_;
   std::shared_ptr<const Manifest> manifest_;
   WorkerLock lock_;
-  std::unique_ptr<Writer> writer_;
+  std::unique_ptr<WorkerWriter> writer_;
   std::int64_t session_ = 0;
   std::vector<std::string> notes_;
 };

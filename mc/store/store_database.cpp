@@ -243,6 +243,7 @@ void Database::reopen() {
   idle_.clear();
   db_.reset();
   sqlite3* made = nullptr;
+  const bool writes = use_ == Use::write || use_ == Use::draft;
   const bool unlocked_reader = locks_ == Locks::none && use_ == Use::read;
   if (unlocked_reader) opened_ = version_of(path_);
   // A reader may write too: only so can it undo the half of a transaction that a killed writer
@@ -250,7 +251,7 @@ void Database::reopen() {
   const int flags =
       SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW |
       (unlocked_reader ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE) |
-      (use_ == Use::write ? SQLITE_OPEN_CREATE : 0);
+      (writes ? SQLITE_OPEN_CREATE : 0);
   const std::string real = with_real_folder(path_);
   const int code =
       sqlite3_open_v2(unlocked_reader ? immutable_uri(real).c_str() : real.c_str(), &made, flags,
@@ -260,11 +261,13 @@ void Database::reopen() {
   sqlite3_extended_result_codes(made, 1);
   sqlite3_busy_handler(made, wait_for_lock, &path_);
   // A rollback journal, not a write-ahead log: the log needs memory shared between the readers,
-  // which network file systems do not have. FULL: what is committed survives a power failure.
-  if (use_ == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=FULL");
+  // which network file systems do not have. EXTRA: what is committed survives a power failure, of
+  // which a journal that comes back to its folder would undo the last change.
+  if (use_ == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=EXTRA");
+  if (use_ == Use::draft) execute("PRAGMA journal_mode=MEMORY; PRAGMA synchronous=OFF");
   // With this switch SQLite goes on where the file is shorter than its header says.
   if (use_ == Use::salvage) execute("PRAGMA writable_schema=1");
-  if (use_ != Use::write) execute("PRAGMA query_only=1");
+  if (!writes) execute("PRAGMA query_only=1");
 }
 
 void Database::execute(const char* sql) {

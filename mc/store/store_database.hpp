@@ -59,9 +59,10 @@ class Statement {
 /// store if the file itself is damaged.
 class Database {
  public:
-  enum class Use { write, read, salvage };
-  /// `write` makes the file if need be. `read` finishes, where it may, what a killed writer had
-  /// begun; `salvage` reads of a damaged file what it can.
+  enum class Use { write, draft, read, salvage };
+  /// `write` makes the file if need be; `draft` too, one that is thrown away unless it is completed
+  /// and then brought to the disk by its maker: no journal stands beside it. `read` finishes, where
+  /// it may, what a killed writer had begun; `salvage` reads of a damaged file what it can.
   ///
   /// Without locks a writer, who is alone by its WorkerLock, opens its file as it is; a reader
   /// takes what it finds, undoes nothing, and must look by is_outdated() whether that has changed.

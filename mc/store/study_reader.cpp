@@ -152,9 +152,22 @@ std::vector<StoredBlock> StudyReader::kept(const WantedPlace& wanted) {
   }
   const auto key = [](const StoredBlock& part) { return key_of(part.block); };
   std::ranges::stable_sort(all, {}, key);
-  const auto same = [&](const StoredBlock& a, const StoredBlock& b) { return key(a) == key(b); };
-  all.erase(std::unique(all.begin(), all.end(), same), all.end());
-  return all;
+  std::vector<StoredBlock> once;
+  for (auto at = all.begin(); at != all.end();) {
+    const auto next =
+        std::find_if(at, all.end(), [&](const auto& b) { return key(b) != key(*at); });
+    if (std::all_of(at, next, [&](const auto& b) { return agree(at->block, b.block); }))
+      once.push_back(std::move(*at));
+    else
+      note(
+          fmt::format("{}: copies of what was kept of runs {} to {} of point {} differ (expected "
+                      "equal bits from every worker); those runs are executed again. Find the "
+                      "faulty machine with `driftscope verify`",
+                      folder_, at->block.first, at->block.first + at->block.status.size() - 1,
+                      at->block.point));
+    at = next;
+  }
+  return once;
 }
 
 void StudyReader::each_result(const StopRules& rules, const Visitor& visit) {

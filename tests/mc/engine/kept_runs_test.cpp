@@ -6,6 +6,7 @@
 #include "mc/engine/engine.hpp"
 #include "mc/engine/forecast.hpp"
 #include "mc/engine/replay.hpp"
+#include "mc/store/store.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_study.hpp"
 
@@ -176,6 +177,57 @@ TEST(KeptRuns, AFailedRunIsStoppedAtAgainByTheSameCall) {
   EXPECT_EQ(again.kept_before, 16u);
   ASSERT_TRUE(again.failed_first);
   EXPECT_EQ(again.failed_first->failure.run, 20u);
+}
+
+TEST(KeptRuns, AFailedRunThatCompletesItsBlockIsStoppedAtAgain) {
+  // The last run of the first block; and with threads, whoever executes the last of it.
+  for (const auto& [run, threads] : {std::pair{63u, 1}, {20u, 3}}) {
+    const ScratchFolder folder;
+    SyntheticStudy study{.task = {.throw_at = run, .milliseconds = 0.2, .together = 8}};
+    study.options.threads = threads;
+    study.options.fail_fast = true;
+    for (int call = 0; call < 3; ++call) {
+      const auto end = study.run(folder.path());
+      EXPECT_EQ(end.code, ExitCode::failed_runs) << run << ", call " << call;
+      ASSERT_TRUE(end.failed_first) << run << ", call " << call;
+      EXPECT_EQ(end.failed_first->failure.run, run);
+      mc::StudyReader reader(folder.path());
+      EXPECT_FALSE(reader.read(0, 0)) << "the block of a failed run is not stored";
+    }
+    study.options.fail_fast = false;
+    study.options.allowed_failures = 1;
+    EXPECT_EQ(study.run(folder.path()).failed, 1u);
+  }
+}
+
+TEST(KeptRuns, AShorterStudyThatIsCompleteLeavesThoseOfALongerOne) {
+  const ScratchFolder folder;
+  SyntheticStudy study = lock_step_study();
+  EXPECT_EQ(stopped_at(study, 85, folder.path()).kept, 24u);
+  study.options.runs = 64;
+  EXPECT_TRUE(study.run(folder.path()).complete);
+  study.options.runs = 300;
+  EXPECT_EQ(study.run(folder.path()).kept_before, 24u);
+}
+
+TEST(KeptRuns, CopiesOfTwoWorkersThatDifferAreExecutedAgainAndTold) {
+  const ScratchFolder straight, folder;
+  SyntheticStudy study = lock_step_study();
+  const auto whole = study.run(straight.path());
+  study.options.share = {0, 2};
+  stopped_at(study, 20, folder.path());
+  study.options.share = {};
+  const mc::Manifest manifest = study.manifest();
+  std::vector<mc::StoredBlock> parts = mc::StudyReader(folder.path()).kept();
+  ASSERT_EQ(parts.size(), 3u);
+  parts[1].block.rows[0] += 1e-3;  // a faulty machine
+  mc::WorkerStore(folder.path(), 1, manifest).keep(parts);
+  const auto rest = study.run(folder.path());
+  EXPECT_EQ(rest.kept_before, 16u);
+  EXPECT_EQ(rest.digest, whole.digest);
+  ASSERT_EQ(rest.notes.size(), 1u);
+  EXPECT_NE(rest.notes[0].find("runs 8 to 15 of point 0 differ"), std::string::npos)
+      << rest.notes[0];
 }
 
 TEST(KeptRuns, AFileOfAnUninterruptedStudyHasNoTableForThem) {
