@@ -8,6 +8,7 @@
 
 #include "core/base/atomic_file.hpp"
 #include "core/base/check.hpp"
+#include "core/base/temporary_file.hpp"
 #include "mc/store/origin.hpp"
 #include "mc/store/worker_writer.hpp"
 
@@ -58,6 +59,7 @@ WorkerStore::~WorkerStore() = default;
 /// or finds the disk full on the way leaves it to the next session, which begins anew.
 void WorkerStore::set_aside() {
   namespace fs = std::filesystem;
+  remove_stale_temporaries(fs::path(path_).parent_path().string());  // of who was killed here
   AtomicFile whole(path_);
   const std::size_t saved =
       WorkerWriter(whole.temporary(), manifest_, lock_.locks(), Database::Use::draft)

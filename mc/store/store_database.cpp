@@ -246,8 +246,7 @@ void Database::reopen() {
   const bool writes = use_ == Use::write || use_ == Use::draft;
   const bool unlocked_reader = locks_ == Locks::none && use_ == Use::read;
   if (unlocked_reader) opened_ = version_of(path_);
-  // A reader may write too: only so can it undo the half of a transaction that a killed writer
-  // left.
+  // A reader may write too: only so can it undo what a killed writer left half done.
   const int flags =
       SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW |
       (unlocked_reader ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE) |
@@ -260,9 +259,8 @@ void Database::reopen() {
   if (code != SQLITE_OK) fail(made, path_, code);
   sqlite3_extended_result_codes(made, 1);
   sqlite3_busy_handler(made, wait_for_lock, &path_);
-  // A rollback journal, not a write-ahead log: the log needs memory shared between the readers,
-  // which network file systems do not have. EXTRA: what is committed survives a power failure, of
-  // which a journal that comes back to its folder would undo the last change.
+  // A write-ahead log needs memory shared with readers, which network file systems do not have.
+  // EXTRA: a journal that comes back after a power failure would undo the last change.
   if (use_ == Use::write) execute("PRAGMA journal_mode=DELETE; PRAGMA synchronous=EXTRA");
   if (use_ == Use::draft) execute("PRAGMA journal_mode=MEMORY; PRAGMA synchronous=OFF");
   // With this switch SQLite goes on where the file is shorter than its header says.

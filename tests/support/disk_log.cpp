@@ -110,7 +110,8 @@ int synced(int fd, int result) {
   struct stat info {};
   if (result != 0 || ::fstat(fd, &info) != 0) return result;
   if (S_ISDIR(info.st_mode)) {
-    if (const std::string path = path_of(fd); is_under(path)) record("syncdir\t" + path + "\n");
+    if (const std::string path = path_of(fd); is_under(path + "/"))
+      record("syncdir\t" + path + "\n");
   } else if (const std::string file = file_of(fd); !file.empty()) {
     as_a_whole(fd, file);
     record("sync\t" + file + "\n");
