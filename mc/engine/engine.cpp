@@ -36,7 +36,7 @@ class Engine {
         sink_(sink),
         stop_(options.max_wall, ranks),
         store_(folder, ranks.size() > 1 ? ranks.rank() : options.share.index, manifest),
-        reader_(folder),
+        reader_(after_all(ranks, folder)),
         rules_(work.stop_rules, options.runs, reader_),
         plan_(work, options, ranks, reader_, rules_),
         board_([this] { return plan_.next(); }, columns()) {}
@@ -53,6 +53,12 @@ class Engine {
   }
 
  private:
+  /// What a rank mends of its file when it opens it is not read by the others before.
+  static const std::string& after_all(Ranks& ranks, const std::string& folder) {
+    ranks.largest(0);
+    return folder;
+  }
+
   void execute() {
     const ThreadCount told(options_.threads);  // one thread: runs spread nothing either
     const int threads = usual_threads();
@@ -176,6 +182,7 @@ class Engine {
     outcome.leader = ranks_.leader();
     outcome.failed_first = failed_first_;
     ranks_.add(Counter::executed, own_done_);
+    ranks_.add(Counter::executed_failed, own_failed_);
     const ExitCode defect = queue_.error() ? code_of(queue_.error()) : ExitCode::ok;
     outcome.code = of_gravity(ranks_.largest(gravity(stop_.code(defect))));
     if (queue_.error()) {
@@ -194,12 +201,14 @@ class Engine {
     outcome.dropped = std::max(ranks_.add(Counter::executed, 0), saved) - saved;
     outcome.longest_group = stop_.time().longest();
     outcome.failed = ranks_.add(Counter::failed, 0);
+    outcome.failed_now = ranks_.add(Counter::executed_failed, 0);
     outcome.seconds = seconds();
     if (outcome.leader) look_back(outcome);
     share_with_all(outcome, ranks_);
     end_session(outcome.code, outcome.complete);
-    for (const auto* notes : {&store_.notes(), &reader_.notes()})
-      outcome.notes.insert(outcome.notes.end(), notes->begin(), notes->end());
+    outcome.notes = store_.notes();
+    if (outcome.leader)  // all ranks read the same
+      outcome.notes.insert(outcome.notes.end(), reader_.notes().begin(), reader_.notes().end());
     return outcome;
   }
 
@@ -219,6 +228,8 @@ class Engine {
     outcome.complete = rest.all == 0;
     // No time for another group, and none was left.
     if (outcome.code == ExitCode::wall_time && rest.own == 0) outcome.code = ExitCode::ok;
+    // Done and gone again: somebody took a file away, or damaged it, meanwhile.
+    if (outcome.code == ExitCode::ok && rest.own > 0) outcome.code = ExitCode::wall_time;
     if (!outcome.complete) outcome.kept_after = runs_of(plan_.kept());
     if (!outcome.complete) return;
     outcome.results = rest.verified->results;

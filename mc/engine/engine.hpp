@@ -52,15 +52,16 @@ struct StudyOutcome {
   std::uint64_t kept_before = 0;  ///< such that this session found, of this worker's share
   std::uint64_t taken_over = 0;   ///< of them those in blocks that it stored
   std::uint64_t kept_after = 0;   ///< such that are there at its end
-  std::uint64_t dropped = 0;    ///< executed beside the run at which `fail_fast` stopped: not kept
-  double longest_group = 0.0;   ///< of runs executed together, in this process [s]
-  std::uint64_t failed = 0;     ///< failed runs: of all results if complete, else of this session
-  std::uint64_t results = 0;    ///< runs that count (complete studies)
-  std::size_t missing = 0;      ///< blocks still to be done
-  std::size_t missing_own = 0;  ///< of them, those of this worker's share
-  double seconds = 0.0;         ///< of the clock, this session
-  std::string digest;           ///< results_digest() (complete studies)
-  std::vector<std::string> notes;  ///< damage found and mended
+  std::uint64_t dropped = 0;   ///< executed beside the run at which `fail_fast` stopped: not kept
+  double longest_group = 0.0;  ///< of runs executed together, in this process [s]
+  std::uint64_t failed = 0;  ///< failed runs: of all results if complete, else of blocks stored now
+  std::uint64_t failed_now = 0;    ///< of the runs executed in this session, stored or not
+  std::uint64_t results = 0;       ///< runs that count (complete studies)
+  std::size_t missing = 0;         ///< blocks still to be done
+  std::size_t missing_own = 0;     ///< of them, those of this worker's share
+  double seconds = 0.0;            ///< of the clock, this session
+  std::string digest;              ///< results_digest() (complete studies)
+  std::vector<std::string> notes;  ///< damage found and mended; of other ranks what each mended
   /// The run at which `fail_fast` ended the session of this process. Its block is not stored.
   struct FailedRun {
     std::size_t point = 0;

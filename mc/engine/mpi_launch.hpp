@@ -7,7 +7,7 @@
 
 namespace drift::mc {
 
-/// The processes that mpirun started for one study; a single one without mpirun. They share three
+/// The processes that mpirun started for one study; a single one without mpirun. They share some
 /// counters and nothing else: results go to each one's own file. Calls are serialised inside.
 class Ranks {
  public:
@@ -23,8 +23,8 @@ class Ranks {
   std::size_t size() const;
   bool leader() const { return rank() == 0; }
 
-  enum class Counter { block, done, failed, stop, executed, kept, taken_over };
-  static constexpr std::size_t counters = 7;
+  enum class Counter { block, done, failed, stop, executed, executed_failed, kept, taken_over };
+  static constexpr std::size_t counters = 8;
   /// Adds to a counter that all share; what it was before.
   std::uint64_t add(Counter counter, std::uint64_t n);
 

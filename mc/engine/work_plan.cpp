@@ -53,8 +53,11 @@ bool WorkPlan::mend() {
       verified_ = verified();
       damaged = own(verified_->missing);
     }
-    for (const std::uint64_t i : damaged)
+    for (const std::uint64_t i : damaged) {
       before_ -= std::min<std::uint64_t>(before_, all_[i].count);
+      if (const BlockEntry* listed = reader_.listed(all_[i].point, all_[i].first))
+        failed_before_ -= std::min<std::uint64_t>(failed_before_, listed->failed);
+    }
     damaged.push_back(ranks_.add(Ranks::Counter::block, 0));
   }
   ranks_.broadcast(damaged);

@@ -36,6 +36,7 @@ void write_table(Hdf5Output& file, const ExportTable& table) {
     file.set_text(path, "units", c.units);
     file.set_text(path, "long_name", c.about);
     if (!c.meanings.empty()) file.set_flags(path, c.meanings);
+    if (!c.words.empty()) file.set_text(path, "words", fmt::format("{}", fmt::join(c.words, "\n")));
     file.attach(set, scale, 0);
   }
 }
@@ -74,6 +75,7 @@ ExportTable swept_table(const std::vector<StudyPoint>& points) {
       if (at == seen.end()) seen.push_back(word);
     }
     words.meanings = plain_names(seen);
+    words.words = std::move(seen);
     t.columns.push_back(std::move(words));
   }
   return t;

@@ -11,10 +11,10 @@
 namespace drift::mc {
 
 /// A column of a small table for export; where `meanings` are given its values are places in that
-/// list.
+/// list. Of meanings that are no plain names `words` has them as they are written.
 struct ExportColumn {
   std::string name, units = "1", about;
-  std::vector<std::string> meanings = {};
+  std::vector<std::string> meanings = {}, words = {};
   std::vector<double> values = {};
 };
 

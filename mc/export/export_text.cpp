@@ -14,6 +14,7 @@
 #include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/words.hpp"
+#include "core/config/quantity.hpp"
 #include "mc/export/swept_coordinates.hpp"
 
 namespace drift::mc {
@@ -61,6 +62,11 @@ std::string sheet_field(std::string text) {
   if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
     text.insert(0, "'");
   return csv_field(text);
+}
+
+/// The same of a swept text; a quantity is no formula, and a table is joined by it.
+std::string swept_field(const std::string& text) {
+  return config::quantity_in(text) ? csv_field(text) : sheet_field(text);
 }
 
 std::string one_line(std::string text) {
@@ -159,7 +165,7 @@ void export_csv(StudyReader& reader, const StopRules& rules, const std::string& 
   for (const SweptCoordinate& s : swept) {
     line += "," + sheet_field(s.title());
     for (std::size_t p = 0; p < points.size(); ++p)
-      swept_at[p] += "," + (s.numbers.empty() ? sheet_field(one_line(s.words[p]))
+      swept_at[p] += "," + (s.numbers.empty() ? swept_field(one_line(s.words[p]))
                                               : fmt::format("{}", s.numbers[p]));
   }
   for (const Column& c : all)

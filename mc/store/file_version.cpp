@@ -1,5 +1,7 @@
 #include "mc/store/file_version.hpp"
 
+#include <sys/stat.h>
+
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +20,12 @@ FileVersion version_of(const std::string& path) {
     for (const char byte : counter)
       version.changes = version.changes << 8 | static_cast<unsigned char>(byte);
   return version;
+}
+
+FileIdentity identity_of(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return {};
+  return {info.st_dev, info.st_ino};
 }
 
 }  // namespace drift::mc

@@ -16,4 +16,11 @@ struct FileVersion {
 /// Not for files that this process has locked: looking at them would let go of the lock.
 FileVersion version_of(const std::string& path);
 
+/// Which file has a name: another one, where it was replaced by a rename.
+struct FileIdentity {
+  std::uint64_t device = 0, number = 0;  ///< 0: none
+  bool operator==(const FileIdentity&) const = default;
+};
+FileIdentity identity_of(const std::string& path);
+
 }  // namespace drift::mc

@@ -39,14 +39,31 @@ void StudyReader::note(std::string text) {
     notes_.push_back(std::move(text));
 }
 
+void StudyReader::forget_files_that_are_gone() {
+  for (auto source = sources_.begin(); source != sources_.end();) {
+    const std::string& path = source->first;
+    if (!source->second.file || identity_of(path) == source->second.identity) {
+      ++source;
+      continue;
+    }
+    for (auto& [place, copies] : index_)
+      std::erase_if(copies, [&](const auto& copy) { return copy.first == path; });
+    std::erase_if(index_, [](const auto& of_place) { return of_place.second.empty(); });
+    source = sources_.erase(source);
+  }
+}
+
 void StudyReader::refresh() {
+  forget_files_that_are_gone();
   paths_ = worker_files(folder_);
   for (const std::string& path : paths_) {
     require_worker_file(path);
     try {
       Source& source = sources_[path];
-      if (!source.file)
+      if (!source.file) {
+        source.identity = identity_of(path);
         source.file = std::make_unique<WorkerFile>(path, manifest_, Database::Use::read, locks_);
+      }
       if (!source.known) source.known = source.file->require_same_origin();
       bool damaged = false;
       for (const BlockEntry& e : source.file->entries(source.last_id, &damaged)) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/sha256.hpp"
+#include "mc/store/file_version.hpp"
 #include "mc/store/store.hpp"
 
 namespace drift::mc {
@@ -36,7 +37,8 @@ class StudyReader {
   /// manifest, which outlives the worker files.
   std::uint64_t runs() const { return asked_; }
   std::vector<Session> sessions();
-  /// Looks for blocks stored since, by this or any other worker.
+  /// Looks for blocks stored since, by this or any other worker. A file that was replaced or
+  /// removed since counts as what its name has now.
   void refresh();
 
   /// Blocks in order (the largest where there are several of the same first run), not yet verified.
@@ -78,10 +80,12 @@ class StudyReader {
  private:
   struct Source {
     std::unique_ptr<WorkerFile> file;
+    FileIdentity identity = {};  ///< of what was opened
     std::int64_t last_id = 0;
     bool known = false;  ///< of the study, by its own table
   };
   void note(std::string text);
+  void forget_files_that_are_gone();
 
   std::string folder_;
   std::shared_ptr<const Manifest> manifest_;

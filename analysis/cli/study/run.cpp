@@ -56,7 +56,6 @@ void say_of_wall(const mc::StudyOutcome& o, const mc::EngineOptions& asked,
 /// What happened, for people; on stderr, where results are not.
 void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::string& folder,
           const mc::Manifest& manifest) {
-  for (const std::string& note : o.notes) say("note: {}\n", note);
   const std::uint64_t executed = o.done + o.kept + o.dropped;
   if (stopped(o)) {
     say("stopped: {} runs are stored in {}, {} of unfinished blocks are kept{}; the same command "
@@ -72,7 +71,7 @@ void tell(const mc::StudyOutcome& o, const mc::EngineOptions& asked, const std::
   say("{}: {} runs{} stored before{}, {} executed in {} ({:.1f} runs/s), {} failed{}{}\n", folder,
       o.done_before + o.cut_short, o.stored_runs > asked.runs ? " of those asked for" : "",
       o.kept_before > 0 ? fmt::format(" and {} of unfinished blocks kept", o.kept_before) : "",
-      o.done, duration_text(o.seconds), rate, o.failed,
+      o.done, duration_text(o.seconds), rate, o.failed_now,
       o.kept > 0 ? fmt::format("; {} more, of unfinished blocks, are kept", o.kept) : "",
       o.dropped > 0 ? fmt::format("; {} more, executed with one that failed, are not", o.dropped)
                     : "");
@@ -107,8 +106,8 @@ void list_failures(mc::StudyReader& reader, const mc::StopRules& rules, const st
       if (++count <= most) say_failed(folder, b.block.point, f);
   });
   if (count > most)
-    say("failed: ... and {} more; `sqlite3 {}/worker-*.sqlite 'SELECT * FROM failures'` "
-        "lists all\n",
+    say("failed: ... and {} more; `driftscope export {} --format csv` has all, with status, "
+        "t_failed and cause\n",
         count - most, shell_word(folder));
 }
 
@@ -152,12 +151,16 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
       mc::run_study(work, options, folder, manifest, ranks, run_progress(arguments.progress));
   if (outcome.failed_first)
     say_failed(folder, outcome.failed_first->point, outcome.failed_first->failure);
+  for (const std::string& note : outcome.notes) say("note: {}\n", note);
   if (!outcome.leader) return outcome.code;
   tell(outcome, options, folder, manifest);
   if (stopped(outcome)) return outcome.code;  // one line; failures are listed when the study ends
   mc::StudyReader reader(folder);
   if (outcome.failed > 0) list_failures(reader, work.stop_rules, folder);
-  if (outcome.code == ExitCode::failed_runs)
+  if (outcome.code == ExitCode::failed_runs && !outcome.complete)
+    say("stopped at a run that failed, as --fail-fast asks; its block is not stored. Without "
+        "--fail-fast the same command goes on\n");
+  else if (outcome.code == ExitCode::failed_runs)
     complain(
         "error: {} of the runs failed (allowed {}): what is left may be a biased choice. See "
         "why: driftscope status {}\n",

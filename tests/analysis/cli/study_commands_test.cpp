@@ -127,6 +127,8 @@ TEST(StudyCommands, FailedRunsAreCountedListedAndDecideTheExitCode) {
   EXPECT_NE(fast.err.find("failed: point 0, run 3: error at t = 0 s: thrown by run 3. Look closer"),
             std::string::npos)
       << fast.err;
+  EXPECT_NE(fast.err.find("as --fail-fast asks"), std::string::npos) << fast.err;
+  EXPECT_EQ(fast.err.find("of the runs failed"), std::string::npos) << "none of those stored did";
 }
 
 TEST(StudyCommands, WallTimeIsExitCode75AndTheSameCommandGoesOn) {

@@ -109,6 +109,7 @@ TEST(Engine, FailFastStopsAndTheStudyGoesOnLater) {
   const auto stopped = study.run(folder.path());
   EXPECT_EQ(stopped.code, ExitCode::failed_runs);
   EXPECT_FALSE(stopped.complete);
+  EXPECT_EQ(stopped.failed_now, 1u) << "executed, and not stored";
   study.options.fail_fast = false;
   EXPECT_TRUE(study.run(folder.path()).complete);
 }
@@ -207,7 +208,8 @@ TEST(Engine, AStartReadsNothingOfOthersAndDamageIsMetBeforeTheStudyIsComplete) {
 TEST(Engine, DamageInTheFileOfAnotherWorkerIsMendedByTheCallThatMeetsIt) {
   for (const bool with_rule : {false, true}) {
     const ScratchFolder straight, folder;
-    SyntheticStudy study;
+    SyntheticStudy study{.task = {.fail_every = 41}};
+    study.options.allowed_failures = 300;
     // Several threads would run ahead of the rule: how much is done would hang on the clock.
     study.options.threads = 1;
     if (with_rule)
@@ -225,6 +227,7 @@ TEST(Engine, DamageInTheFileOfAnotherWorkerIsMendedByTheCallThatMeetsIt) {
     EXPECT_EQ(mended.done, 64u) << with_rule;
     EXPECT_EQ(mended.digest, whole.digest);
     EXPECT_EQ(last.done, last.total);
+    if (!with_rule) EXPECT_EQ(last.failed, whole.failed) << "those of the damaged block once";
     EXPECT_FALSE(mended.notes.empty());
   }
 }

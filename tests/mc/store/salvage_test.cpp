@@ -103,5 +103,38 @@ TEST(Salvage, AKillInTheMiddleOfItLosesNothing) {
   s.expect_that_all_whole_blocks_are_there();
 }
 
+TEST(Salvage, WhoHasTheDamagedFileOpenReadsTheOneThatReplacedIt) {
+  CutStudy s;
+  mc::StudyReader reader(s.folder.path());
+  const auto readable = [&] {
+    std::size_t found = 0;
+    for (std::uint64_t first = 0; first < 400; first += 8) found += reader.read(0, first) ? 1 : 0;
+    return found;
+  };
+  EXPECT_LT(readable(), 50u);
+  mc::WorkerStore store(s.folder.path(), 0, s.study.manifest());
+  reader.refresh();
+  EXPECT_EQ(readable(), s.whole);
+  mc::StoredBlock lost;
+  lost.block = {0, 392, std::vector<mc::RunStatus>(8), std::vector<double>(800, 1.0)};
+  ASSERT_EQ(reader.listed(0, 392), nullptr) << "the end of the file was cut off";
+  store.commit(std::span(&lost, 1));
+  reader.refresh();
+  EXPECT_EQ(readable(), s.whole + 1) << "what the new file gets later is seen, too";
+}
+
+TEST(Salvage, AFileThatIsRemovedAtTheEndOfASessionLeavesItsBlocksToBeDone) {
+  const ScratchFolder folder;
+  SyntheticStudy study;
+  study.options.share = {1, 2};
+  study.run(folder.path());
+  study.options.share = {};
+  const auto end = study.run(
+      folder.path(), [&](const mc::Progress&) { fs::remove(folder.file("worker-0001.sqlite")); });
+  EXPECT_FALSE(end.complete);
+  EXPECT_EQ(end.code, ExitCode::wall_time) << "who asks by exit codes goes on";
+  EXPECT_TRUE(study.run(folder.path()).complete);
+}
+
 }  // namespace
 }  // namespace drift::salvage_test
