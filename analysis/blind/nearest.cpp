@@ -13,10 +13,16 @@ namespace {
 
 using inference::Settings;
 
-/// One parameter of a term at one prior sigma, times the strength.
-Source one_parameter(std::size_t param, const Settings& settings) {
+/// One parameter of a term at one prior sigma, times the strength; settings of one known value,
+/// which no grid has, at that.
+Source one_parameter(const TermInfo& term, std::size_t param, const Settings& settings) {
   Source s;
   s.put = [=](World& w, double strength) {
+    for (std::size_t i = term.first; i < term.first + term.count; ++i) {
+      if (TermLibrary::specs[i].amplitude() || w.truth.active[i]) continue;
+      w.truth.active.set(i);
+      w.draw.theta[i] = TermLibrary::specs[i].prior_si().mean();
+    }
     w.truth.active.set(param);
     w.draw.theta[param] += strength * TermLibrary::specs[param].prior_si().sigma();
     for (const auto& [i, value] : settings) {
@@ -61,7 +67,7 @@ Nearest nearest_in_library(const SizingBench& bench, const FilterSpec& nominal,
         MatX signals(signal.size(), static_cast<Eigen::Index>(params.size()) + 1);
         for (std::size_t k = 0; k < params.size(); ++k)
           signals.col(static_cast<Eigen::Index>(k)) =
-              bench.signal(one_parameter(params[k], settings), strength);
+              bench.signal(one_parameter(term, params[k], settings), strength);
         signals.rightCols<1>() = signal;
         const double cosine = mixture_cosine(bench.absorption().left_products(signals));
         if (cosine > best.cosine) best = {std::string(term.key), axis, cosine};

@@ -62,6 +62,7 @@ struct Cvode::Impl {
   char message[256] =
       "";  ///< CVODE's last words; a buffer, because warnings come on good paths too
   double t0 = 0.0, t_stop = 0.0, t = 0.0;
+  double longest = 0.0;  ///< step [s]; 0: as long as the tolerances allow
   bool at_stop = true;
   long jacobian_calls = 0;
 };
@@ -76,7 +77,7 @@ Cvode::Impl::Impl(Method method_, int size, const OdeOptions& options_, std::vec
   check_setup(CVodeInit(cvode.get(), rhs_call, 0.0, y.get()), "CVodeInit");
   check_setup(CVodeSetUserData(cvode.get(), this), "CVodeSetUserData");
   check_setup(CVodeWFtolerances(cvode.get(), weights_call), "CVodeWFtolerances");
-  check_setup(CVodeSetMaxStep(cvode.get(), options.max_step), "CVodeSetMaxStep");
+  longest = options.max_step;
   check_setup(CVodeSetMaxHnilWarns(cvode.get(), -1), "CVodeSetMaxHnilWarns");
   if (method == Method::adams) {
     fixed_point.reset(
@@ -161,8 +162,10 @@ void Cvode::Impl::begin(double from, const double* y0, double stop, double first
   check_setup(CVodeSetInitStep(cvode.get(), first_step), "CVodeSetInitStep");
   // A step that cannot move time at t_stop is no step: ends the creeping "t + h = t".
   double least = 4.0 * std::numeric_limits<double>::epsilon() * (stop - from);
-  if (options.max_step > 0.0) least = std::min(least, options.max_step);
+  if (longest > 0.0) least = std::min(least, longest);
+  check_setup(CVodeSetMaxStep(cvode.get(), 0.0), "CVodeSetMaxStep");  // below it no least is set
   check_setup(CVodeSetMinStep(cvode.get(), least), "CVodeSetMinStep");
+  check_setup(CVodeSetMaxStep(cvode.get(), longest), "CVodeSetMaxStep");
   if (const int bad = detail::first_nonfinite(y0, n); bad >= 0)
     fail(OdeStatus::rhs_nonfinite,
          fmt::format("initial state {} is not finite at t = {:.9g} s", bad, t0));
@@ -234,6 +237,11 @@ void Cvode::system(OdeRhs rhs, OdeJacobian jacobian) {
 void Cvode::start(double t0, const double* y0, double t_stop, double first_step) {
   impl_->guard.start_clock(impl_->options.wall_limit);
   impl_->begin(t0, y0, t_stop, first_step);
+}
+
+void Cvode::limit_steps(double longest) {
+  const double most = impl_->options.max_step;
+  impl_->longest = longest > 0.0 && most > 0.0 ? std::min(longest, most) : std::max(longest, most);
 }
 
 OdeResult Cvode::advance(double t_out) {

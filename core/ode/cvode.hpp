@@ -50,6 +50,9 @@ class Cvode {
   /// choose.
   void start(double t0, const double* y0, double t_stop, double first_step = 0.0);
 
+  /// The longest step from the next start on [s], beside that of the options; 0: none beside it.
+  void limit_steps(double longest);
+
   /// Brings the state to min(t_out, t_stop); t_out must not decrease from call to call. The result
   /// between steps is interpolated to the accuracy of the tolerances. After a failure the state is
   /// the last accepted one, and every further call repeats the failure until the next start.

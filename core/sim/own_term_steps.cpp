@@ -91,38 +91,88 @@ bool has_means(std::size_t own) {
   return own_terms().terms[own].target.slot != OwnSlot::gimbal;
 }
 
-}  // namespace
+/// Steps of each interval that own terms ask for, and where they do.
+struct AskedSteps {
+  std::vector<int> substeps;
+  std::vector<bool> fine;
+  bool finer = false;  ///< than those of the timeline, somewhere
+};
 
-void resolve_own_terms(Timeline& timeline, const ModelSpec& model) {
+AskedSteps asked_steps(const Timeline& timeline, const ModelSpec& model) {
   constexpr double tolerance = 1e-3;
   constexpr double nothing =
       1e-9;  // of an amplitude: what rounding leaves of a product that is zero
   constexpr int most_substeps = 32;
-  bool finer = false;
-  std::vector<int> substeps;
-  for (const Interval& i : timeline.intervals) substeps.push_back(i.substeps);
+  AskedSteps asked;
+  for (const Interval& i : timeline.intervals) asked.substeps.push_back(i.substeps);
+  asked.fine.resize(timeline.intervals.size());
   for_each_own(timeline, model, [&](std::size_t own, const OwnCourse& course) {
     if (!has_means(own)) return;
     double largest = nothing / tolerance * course.amplitude();
     for (const Interval& i : timeline.intervals)
       largest = std::max(largest, RowCourse(course, timeline, i).largest());
     for (std::size_t n = 0; n < timeline.intervals.size(); ++n) {
-      Interval& i = timeline.intervals[n];
-      const RowCourse row(course, timeline, i);
-      while (row.error(substeps[n]) > tolerance * largest) {
-        i.fine = true;
-        if (2 * substeps[n] > most_substeps) break;
-        substeps[n] *= 2;
-        finer = true;
+      const RowCourse row(course, timeline, timeline.intervals[n]);
+      while (row.error(asked.substeps[n]) > tolerance * largest) {
+        asked.fine[n] = true;
+        if (2 * asked.substeps[n] > most_substeps) break;
+        asked.substeps[n] *= 2;
+        asked.finer = true;
       }
     }
   });
-  if (!finer) return;
+  return asked;
+}
+
+bool drives_platform(const ModelSpec& model, std::size_t own) {
+  const OwnSlot slot = own_terms().terms[own].target.slot;
+  return model.model().terms[TermLibrary::num_known + own] && slot != OwnSlot::gimbal &&
+         slot != OwnSlot::accelerometer;
+}
+
+}  // namespace
+
+void resolve_own_terms(Timeline& timeline, const ModelSpec& model) {
+  const AskedSteps asked = asked_steps(timeline, model);
+  for (std::size_t n = 0; n < asked.fine.size(); ++n)
+    if (asked.fine[n]) timeline.intervals[n].fine = true;
+  if (!asked.finer) return;
   std::vector<Mat3> R_lp(static_cast<std::size_t>(timeline.chains));
   for (const Interval& i : timeline.intervals)
     if (i.cage) R_lp[static_cast<std::size_t>(i.chain)] = timeline.nodes[i.first_node].R_lr;
-  for (std::size_t n = 0; n < substeps.size(); ++n) timeline.intervals[n].substeps = substeps[n];
+  for (std::size_t n = 0; n < asked.substeps.size(); ++n)
+    timeline.intervals[n].substeps = asked.substeps[n];
   place_nodes(timeline, R_lp);
+}
+
+OwnTruthSteps::OwnTruthSteps(const ModelSpec& truth) : truth_(truth) {
+  for (std::size_t own = 0; own < own_terms().terms.size(); ++own)
+    drives_ = drives_ || drives_platform(truth, own);
+}
+
+void OwnTruthSteps::of_run(const Timeline& timeline, const Theta& drawn) {
+  substeps_.clear();
+  if (!drives_) return;
+  ModelSpec as_drawn = truth_;
+  bool others = false;
+  for (std::size_t own = 0; own < own_terms().terms.size(); ++own) {
+    if (!drives_platform(truth_, own)) continue;
+    const std::size_t first = TermLibrary::terms[TermLibrary::num_known + own].first;
+    for (std::size_t i = first; i < first + own_terms().terms[own].params.size(); ++i) {
+      if (TermLibrary::specs[i].amplitude()) continue;
+      const double value = drawn[static_cast<Eigen::Index>(i)];
+      others = others || value != truth_.priors[i].mean();
+      as_drawn.priors[i] = fixed(value);
+    }
+  }
+  if (others) substeps_ = asked_steps(timeline, as_drawn).substeps;
+}
+
+double OwnTruthSteps::longest(const Timeline& timeline, std::size_t i) const {
+  if (!drives_) return 0.0;
+  constexpr int least = 4;  // steps of two nodes
+  const Interval& row = timeline.intervals[i];
+  return row.length() / (2.0 * std::max(least, substeps_.empty() ? row.substeps : substeps_[i]));
 }
 
 std::vector<UnresolvedOwnTerm> unresolved_own_terms(const Timeline& timeline,

@@ -14,6 +14,24 @@ namespace drift {
 /// out.
 void resolve_own_terms(Timeline& timeline, const ModelSpec& model);
 
+/// The longest steps of a truth that own terms drive: an integrator that chooses its own steps over
+/// a stretch of constant command would pass over what begins and ends within one.
+class OwnTruthSteps {
+ public:
+  explicit OwnTruthSteps(const ModelSpec& truth);
+
+  /// For a run with these parameters. Where its settings are those of the model, a timeline that
+  /// was resolved says where steps must be fine; else it is found for those drawn.
+  void of_run(const Timeline& timeline, const Theta& drawn);
+  /// Over interval i [s]: an eighth of it, or as fine as an own term asks for; 0: no limit.
+  double longest(const Timeline& timeline, std::size_t i) const;
+
+ private:
+  bool drives_ = false;
+  ModelSpec truth_;
+  std::vector<int> substeps_;  ///< of each interval for the settings drawn; empty: the timeline's
+};
+
 /// An own term that changes too fast for the steps of a test.
 struct UnresolvedOwnTerm {
   std::size_t own = 0;       ///< which of own_terms()

@@ -25,6 +25,8 @@ class PlatformOde {
   OdeResult segment(const Timeline& timeline, std::size_t first, std::size_t end,
                     const Theta& theta, const Vec3& omega_noise_p, const Vec3* psi0_l,
                     Trajectory& phi, const MemoryRecord* memory = nullptr);
+  /// The longest step of the segments that follow [s]; 0: as long as the tolerances allow.
+  void limit_steps(double longest) { ode_.limit_steps(longest); }
   OdeStats stats() const { return ode_.stats(); }
 
   static constexpr int servo_states = ServoState::size + 3;  ///< loop, then phi

@@ -13,25 +13,28 @@ namespace {
 
 constexpr auto fixed_drift = TermLibrary::index("D_F_x");
 
-/// Intervals first..(return value) are one segment: nothing that drives the platform changes.
-std::size_t segment_end(const Timeline& timeline, std::size_t first, std::size_t end, bool noisy) {
-  const Interval& a = timeline.intervals[first];
-  std::size_t k = first + 1;
-  while (!noisy && k < end) {
-    const Interval& b = timeline.intervals[k];
-    const bool same = !b.cage && b.omega_cmd_p == a.omega_cmd_p && b.loop == a.loop &&
-                      std::abs(b.heading_rate() - a.heading_rate()) < 1e-15;
-    if (!same) break;
-    ++k;
-  }
-  return k;
-}
-
 }  // namespace
 
 struct Simulator::Engine {
   PlatformOde ode;
 };
+
+/// Intervals first..(return value) are one segment: nothing that drives the platform changes.
+std::size_t Simulator::segment_end(const Timeline& timeline, std::size_t first, std::size_t end,
+                                   bool noisy) const {
+  const Interval& a = timeline.intervals[first];
+  const double longest = own_steps_.longest(timeline, first);
+  std::size_t k = first + 1;
+  while (!noisy && k < end) {
+    const Interval& b = timeline.intervals[k];
+    const bool same = !b.cage && b.omega_cmd_p == a.omega_cmd_p && b.loop == a.loop &&
+                      std::abs(b.heading_rate() - a.heading_rate()) < 1e-15 &&
+                      std::abs(own_steps_.longest(timeline, k) - longest) <= 1e-9 * longest;
+    if (!same) break;
+    ++k;
+  }
+  return k;
+}
 
 OdeOptions Simulator::default_options(Coupling coupling) {
   OdeOptions options;
@@ -49,7 +52,8 @@ Simulator::Simulator(const TruthSpec& truth, const Readout& readout, const OdeOp
       readout_(readout),
       model_(truth.model()),
       engine_(
-          new Engine{PlatformOde(with_random_drift(truth.noise, model_), truth.servo, options)}) {}
+          new Engine{PlatformOde(with_random_drift(truth.noise, model_), truth.servo, options)}),
+      own_steps_(truth) {}
 
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
@@ -82,6 +86,7 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
   for (std::uint32_t c = 0; c < 6; ++c)
     wrong_samples_[c].emplace(seed, run_number, Purpose::wrong_samples, c);
   require_covariates(model_, timeline);
+  own_steps_.of_run(timeline, draw.theta);
   memory_ = MemoryRecord(timeline, model_);
   memory_.trace(draw.theta.data());
   const auto n = static_cast<Eigen::Index>(timeline.intervals.size());
@@ -139,6 +144,7 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
       theta = drift_of(timeline, first, out.draw.theta);
     }
     out.theta_end = theta;
+    ode.limit_steps(own_steps_.longest(timeline, first));
     if (disturbance_.cols() > 0)
       omega_noise_p += disturbance_.col(static_cast<Eigen::Index>(first));
     out.ode =

@@ -9,6 +9,7 @@
 #include "core/ode/ode_result.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/memory_path.hpp"
+#include "core/sim/own_term_steps.hpp"
 #include "core/sim/trajectory.hpp"
 #include "core/sim/truth.hpp"
 
@@ -30,7 +31,8 @@ struct Simulation {
 /// Algebraic couplings: 3 states, Adams. Servo: 15 states (loop and attitude), BDF with a Jacobian
 /// by forward differentiation. A stretch of constant command is one segment, ended by a stop time;
 /// the integrator is started again for the next and never steps across. With process noise every
-/// interval is a segment, the noise constant in it.
+/// interval is a segment, the noise constant in it. Where own terms drive the platform no step is
+/// longer than they ask for (OwnTruthSteps).
 ///
 /// One per thread, used for many runs; a run is a pure function of (truth, timeline, seed, run).
 class Simulator {
@@ -69,12 +71,15 @@ class Simulator {
   void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
   Theta drift_of(const Timeline& timeline, std::size_t i, const Theta& drawn);
   void measure(const Timeline& timeline, std::size_t i, Simulation& out);
+  std::size_t segment_end(const Timeline& timeline, std::size_t first, std::size_t end,
+                          bool noisy) const;
   double wrong_by(std::size_t channel, const Theta& theta);
 
   TruthSpec truth_;
   Readout readout_;
   DriftModel model_;
   std::unique_ptr<Engine> engine_;
+  OwnTruthSteps own_steps_;
   Mat3X disturbance_;
   std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_, wrong_samples_;
   std::array<std::optional<Stream>, 3> drift_level_;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/config/nearest.hpp"
 
@@ -25,7 +26,7 @@ constexpr struct EquationFunction {
                           {"max", Operation::maximum},   {"pow", Operation::power}};
 constexpr int deepest_nesting =
     50;  // parentheses and signs; keeps a hostile text off the call stack
-constexpr double largest_whole = 20.0;  // exponent that is multiplied out
+constexpr double largest_whole = 100.0;  // exponent that is multiplied out
 
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -123,15 +124,33 @@ class EquationParser {
     return raised(base, signed_factor(), at);
   }
   int raised(int base, int exponent, std::size_t at) {
-    const EquationNode& e = tree_.nodes[static_cast<std::size_t>(exponent)];
-    const bool negative = e.op == Operation::negate;
-    const EquationNode& n = negative ? tree_.nodes[static_cast<std::size_t>(e.left)] : e;
-    if (n.op == Operation::number && n.number == std::round(n.number) && n.number <= largest_whole)
-      return add({.op = Operation::whole_power,
-                  .index = static_cast<int>(negative ? -n.number : n.number),
-                  .left = base,
-                  .at = at});
+    const auto n = constant(exponent);
+    if (n && *n == std::round(*n) && std::abs(*n) <= largest_whole)
+      return add(
+          {.op = Operation::whole_power, .index = static_cast<int>(*n), .left = base, .at = at});
     return join(Operation::power, base, exponent, at);
+  }
+  /// The value of what names nothing, as (2 + 3); nothing else is folded.
+  std::optional<double> constant(int node) const {
+    const EquationNode& n = tree_.nodes[static_cast<std::size_t>(node)];
+    if (n.op == Operation::number) return n.number;
+    const auto left = n.left >= 0 ? constant(n.left) : std::nullopt;
+    if (!left) return {};
+    if (n.op == Operation::negate) return -*left;
+    const auto right = n.right >= 0 ? constant(n.right) : std::nullopt;
+    if (!right) return {};
+    switch (n.op) {
+      case Operation::add:
+        return *left + *right;
+      case Operation::subtract:
+        return *left - *right;
+      case Operation::multiply:
+        return *left * *right;
+      case Operation::divide:
+        return *left / *right;
+      default:
+        return {};
+    }
   }
   int primary() {
     skip();

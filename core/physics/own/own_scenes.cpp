@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/rng.hpp"
@@ -78,6 +79,16 @@ std::string inputs_told(const EquationProgram& program, const std::vector<double
 
 }  // namespace
 
+namespace {
+
+bool has_power(const EquationProgram& program) {
+  return std::any_of(program.code.begin(),
+                     program.code.begin() + static_cast<std::ptrdiff_t>(program.size),
+                     [](const Instruction& i) { return i.op == Operation::power; });
+}
+
+}  // namespace
+
 std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
                                                  const std::vector<ParamSpec>& params,
                                                  const std::vector<std::string>& inputs) {
@@ -97,7 +108,11 @@ std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
                                : "is not a number",
                         inputs_told(program, values, inputs)),
             "a finite number with a finite slope wherever the platform may be",
-            "Keep divisors, logarithms and roots away from zero, as with max(x, 0.01)"};
+            has_power(program)
+                ? "An exponent that is not a whole number of at most 100 in figures is "
+                  "of a base that is not negative: abs(x)^N, sqrt(max(x, 0.01))"
+                : "Keep divisors, logarithms and roots away from zero, as with "
+                  "max(x, 0.01)"};
       }
     }
   return std::nullopt;
