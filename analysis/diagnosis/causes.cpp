@@ -6,6 +6,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/by_noise.hpp"
 #include "analysis/search/setting_spread.hpp"
+#include "core/physics/own/own_scenes.hpp"
 
 namespace drift::diagnosis {
 namespace {
@@ -24,7 +25,11 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
     const double spread = profiled && spec.continuous()
                               ? search::setting_spread(nominal, r.choices, which, param, e->value)
                               : 0.0;
-    out.sigma = std::max(e->sigma, spread) / spec.unit.to_si;
+    // Without a slope a fit leaves the sigma that it was given.
+    const double fitted = profiled && !has_slope(param)
+                              ? search::settings_apart(nominal, r.choices[which], param)
+                              : e->sigma;
+    out.sigma = std::max(fitted, spread) / spec.unit.to_si;
   } else {
     out.value = r.filter.priors[param].mean() / spec.unit.to_si;
   }

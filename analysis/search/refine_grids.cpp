@@ -9,6 +9,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
+#include "core/physics/own/own_scenes.hpp"
 
 namespace drift::search {
 namespace {
@@ -128,6 +129,22 @@ Gaps about(const inference::Candidate& c, std::size_t place, double value) {
   return gaps;
 }
 
+bool without_slope(const inference::Candidate& c) {
+  const auto place = continuous_setting(c);
+  return place && !has_slope(c.variants.front().settings[*place].first);
+}
+
+/// Whether the gap behind a variant is wider than a row of the test, or a thousandth of the grid.
+bool is_wide(const inference::Candidate& c, std::size_t v, const Timeline& timeline) {
+  const std::size_t place = *continuous_setting(c);
+  const auto at = [&](std::size_t variant) { return c.variants[variant].settings[place].second; };
+  const bool is_time =
+      TermLibrary::specs[c.variants.front().settings[place].first].unit.same_dimension(unit::s);
+  double least = 1e-3 * std::abs(at(c.variants.size() - 1) - at(0));
+  if (is_time) least = std::ranges::min(timeline.intervals, {}, &Interval::length).length();
+  return std::abs(at(v + 1) - at(v)) > least;
+}
+
 template <class GapsOf>
 Fitted refined(Fitted e, const MeasuredTest& test, double least_log_bayes, GapsOf&& gaps_of) {
   Columns columns(e);
@@ -165,6 +182,25 @@ Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth) {
   double top = 0.0;
   for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
   return refined(std::move(e), test, top - worth, beside_best_settings);
+}
+
+Fitted settle_without_slope(Fitted e, const MeasuredTest& test, double worth) {
+  constexpr int most_passes = 8;  // of four parts each: 65,000
+  for (int pass = 0; pass < most_passes; ++pass) {
+    double top = 0.0;
+    for (const Score& s : e.scores) top = std::max(top, s.log_bayes);
+    bool wide = false;
+    e = refined(std::move(e), test, top - worth, [&](const Fitted& now, std::size_t k) {
+      Gaps gaps = without_slope(now.set.candidates[k]) ? beside_best_settings(now, k) : Gaps{};
+      std::erase_if(gaps, [&](const auto& gap) {
+        return !is_wide(now.set.candidates[k], gap.first, test.timeline);
+      });
+      wide = wide || !gaps.empty();
+      return gaps;
+    });
+    if (!wide) break;
+  }
+  return e;
 }
 
 Fitted refine_whole_grids(Fitted e, const MeasuredTest& test) {

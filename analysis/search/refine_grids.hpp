@@ -13,6 +13,11 @@ namespace drift::search {
 /// called for beside it.
 Fitted refine_grids(Fitted e, const MeasuredTest& test, double worth);
 
+/// The same again and again, of settings that no slope leads a fit to (has_slope()): down to a row
+/// of the test, or a thousandth of the grid where the setting is no time. What a fit cannot settle
+/// must be settled before it, or something else is called for beside it.
+Fitted settle_without_slope(Fitted e, const MeasuredTest& test, double worth);
+
 /// The same between all points, of all candidates: a step between two points that are further apart
 /// than the positions of a plan is at neither of them, and another setting scores best. Variants
 /// are numbered anew by that.

@@ -176,7 +176,9 @@ bool asks_for_two(const Search& s) {
 Search searched(Fitted nominal, const MeasuredTest& test, const SearchOptions& options) {
   Search out{{detect(std::move(nominal), test, options)}, {}, false, {}, {}, {}, never};
   if (out.significant)
-    out.nominal = refine_grids(std::move(out.nominal), test, ReachLimits::worth_refining);
+    out.nominal = settle_without_slope(
+        refine_grids(std::move(out.nominal), test, ReachLimits::worth_refining), test,
+        ReachLimits::worth_refining);
   look_at_remainders(out);
   if (!out.significant) return out;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -26,6 +27,18 @@ double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices,
     square += weight * std::pow(setting->second - value, 2);
   }
   return std::sqrt(square / sum);
+}
+
+double settings_apart(const Fitted& nominal, const Choice& choice, std::size_t param) {
+  const auto& variants = nominal.set.candidates[choice.candidate].variants;
+  const auto value_of = [&](const inference::Variant& v) {
+    return std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first)->second;
+  };
+  const double own = value_of(variants[choice.variant]);
+  double apart = std::numeric_limits<double>::infinity();
+  for (const inference::Variant& v : variants)
+    if (const double off = std::abs(value_of(v) - own); off > 0.0) apart = std::min(apart, off);
+  return std::isfinite(apart) ? apart : 0.0;
 }
 
 std::vector<double> credible_settings(const Fitted& nominal, const std::vector<Choice>& choices,

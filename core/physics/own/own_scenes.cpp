@@ -9,11 +9,14 @@
 #include "core/base/rng.hpp"
 #include "core/physics/expression/evaluate.hpp"
 #include "core/physics/own/own_inputs.hpp"
+#include "core/physics/own/own_terms.hpp"
+#include "core/physics/term_library.hpp"
 
 namespace drift {
 namespace {
 
 using Slope = Dual<1>;
+constexpr std::uint64_t scenes = 100;
 
 /// Scene number k: some with as much as possible at zero or along an axis, the rest anywhere.
 std::vector<double> own_scene(std::uint64_t k, std::size_t inputs) {
@@ -92,7 +95,6 @@ bool has_power(const EquationProgram& program) {
 std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
                                                  const std::vector<ParamSpec>& params,
                                                  const std::vector<std::string>& inputs) {
-  constexpr std::uint64_t scenes = 100;
   for (std::uint64_t k = 0; k < scenes; ++k)
     for (std::size_t grid = 0; grid <= (k < 12 ? Grid::capacity : 0); ++grid) {
       const auto values = own_scene(k, inputs.size());
@@ -116,6 +118,26 @@ std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
       }
     }
   return std::nullopt;
+}
+
+bool has_slope(std::size_t param) {
+  for (std::size_t own = 0; own < own_terms().terms.size(); ++own) {
+    const OwnTerm& term = own_terms().terms[own];
+    const std::size_t first = TermLibrary::terms[TermLibrary::num_known + own].first;
+    if (param < first || param >= first + term.params.size()) continue;
+    for (std::uint64_t k = 0; k < scenes; ++k) {
+      const auto values = own_scene(k, own_inputs.size() + own_terms().covariates.size());
+      const auto p = parameter_values(term.params, 0);
+      std::vector<Slope> moved(p.begin(), p.end());
+      moved[param - first].d[0] = 1.0;
+      const Slope y = evaluate_program(term.program, moved.data(), [&](int index) {
+        return Slope(values[static_cast<std::size_t>(index)]);
+      });
+      if (y.d[0] != 0.0) return true;
+    }
+    return false;
+  }
+  return true;
 }
 
 }  // namespace drift
