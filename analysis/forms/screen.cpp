@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "analysis/forms/move_edges.hpp"
 #include "analysis/forms/move_setting.hpp"
 #include "core/stats/chi_square.hpp"
 #include "mc/task/campaign.hpp"
@@ -216,6 +217,9 @@ Screening screen_forms(const inference::LinearProblem& problem, const Timeline& 
   }
   std::ranges::stable_sort(all.best, {}, &ScreenedForm::log_p);
   if (all.best.size() > keep) all.best.resize(keep);
+  if (reach == Reach::whole)
+    for (ScreenedForm& best : all.best)
+      best.form = with_edges_moved(best.form, at, bins, problem, timeline, projector);
   return all;
 }
 

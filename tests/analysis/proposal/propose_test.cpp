@@ -70,6 +70,24 @@ TEST(Diagnose, AFormIsProposedThatNamesTheEffectOnceItIsInTheStudy) {
   EXPECT_EQ(second.causes.front().term, "form_1");
 }
 
+// Weak or strong: what an edge that is a minute off leaves of a strong one would stand against it.
+TEST(Diagnose, AWindowIsProposedWithTheRowsThatItBeganAndEndedIn) {
+  const Hiding test(
+      preset_timeline("twentyfour", CommandLaw::free, 1800.0, 60.0),
+      own_term("hidden", "drift.x", "A*step(t - C)*step(F - t)",
+               "A = { unit = 'deg/h', prior = 0.05 }, C = { unit = 'min', value = "
+               "251 }, F = { unit = 'min', value = 266 }"),
+      {{"hidden_A", 0.1 * deg_per_h}, {"hidden_C", 251.0 * 60.0}, {"hidden_F", 266.0 * 60.0}});
+  const auto found = test.diagnose(diagnosis::Proposing::where_unexplained);
+  ASSERT_EQ(found.verdict, diagnosis::Verdict::unexplained) << report::sentence(found);
+  ASSERT_TRUE(found.proposal);
+  EXPECT_EQ(found.proposal->acts_on, "drift.x");
+  ASSERT_EQ(found.proposal->parameters.size(), 3u);
+  EXPECT_NEAR(found.proposal->parameters[0].value, 0.1, 4.0 * found.proposal->parameters[0].sigma);
+  EXPECT_NEAR(found.proposal->parameters[1].value, 251.0, 1e-6);
+  EXPECT_NEAR(found.proposal->parameters[2].value, 266.0, 1e-6);
+}
+
 TEST(Diagnose, WhatATermImitatesWithMoreParametersIsNotNamedForIt) {
   const Hiding test(
       preset_timeline("twentyfour", CommandLaw::free, 1800.0, 90.0),
