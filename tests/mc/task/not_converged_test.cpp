@@ -104,11 +104,12 @@ std::vector<IteratedJob> in_lanes(const mc::Study& study, const Timeline& timeli
 }
 
 /// Most of the terms left out.
-mc::Study poor(const char* plan) {
-  return read_text(small_study, {{"plan.preset", plan},
-                                 {"truth.terms",
-                                  "[\"fixed_drift\", \"g_drift\", \"g2_drift\", "
-                                  "\"gyro_misalignment\", \"torquer_scale\", \"accelerometer\"]"}});
+mc::Study poor(const char* plan, mc::Overrides more = {}) {
+  more.emplace_back("plan.preset", plan);
+  more.emplace_back("truth.terms",
+                    "[\"fixed_drift\", \"g_drift\", \"g2_drift\", \"gyro_misalignment\", "
+                    "\"torquer_scale\", \"accelerometer\"]");
+  return read_text(small_study, more);
 }
 
 /// The wrong equation over torqued slews: in runs 0, 1 and 3 the fourth pass moves a parameter by
@@ -132,12 +133,14 @@ TEST(NotConverged, LanesSettleAsOneRunDoes) {
   }
 }
 
-/// While the case turns, the passes of some runs go where the last digit sends them: to infinity or
-/// round and round, never to rest. What each says is what it has done.
+/// While the case turns and drifts are a hundred times what the filter believes, the passes of one
+/// run in twelve go where the last digit sends them: round and round, never to rest. Which runs,
+/// another arithmetic may say otherwise; that none does has a chance of 1e-7 among 200.
 TEST(NotConverged, LanesSayIt) {
-  const mc::Study study = poor("casespin");
+  const mc::Study study =
+      poor("casespin", {{"truth.parameters.D_F_x", "{ normal = [\"0 deg/h\", \"20 deg/h\"] }"}});
   const Timeline timeline = mc::StudyTask(study).timeline();
-  std::vector<std::uint64_t> runs(600);
+  std::vector<std::uint64_t> runs(200);
   std::iota(runs.begin(), runs.end(), 0);
   std::vector<Measurements> measured;
   int unsettled = 0;
@@ -150,7 +153,7 @@ TEST(NotConverged, LanesSayIt) {
     EXPECT_TRUE(job.cause().starts_with("filter not converged (the last of 16 passes moves a "))
         << job.cause();
   }
-  EXPECT_GT(unsettled, 0) << "of some hundred that are at a loss";
+  EXPECT_GT(unsettled, 0) << "of those that are at a loss";
 }
 
 }  // namespace
