@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A rank of mpirun that stops alone stops the others: at a failed run, and asked by a signal.
+# A rank of mpirun that stops alone stops the others: at a failed run, and asked by a signal. What another
+# rank than the first mends of its file is told.
 #
 #   tests/ranks_stop.sh SYNTHETIC
 #
@@ -29,3 +30,21 @@ expect_early_end() {  # NAME WHAT THE RUN DOES, EXIT CODE, OPTIONS...
 
 expect_early_end fail_fast throw_at=3 5 --fail-fast
 expect_early_end signal stop_at=3 143
+
+folder=$scratch/notes
+study() { "${mpi[@]}" "$synthetic" run "$(dirname "$0")/support/synthetic.toml" --threads 1 --progress none -o "$folder" 2>&1; }
+study >"$scratch/notes.log"
+damaged=0
+for file in "$folder"/worker-*.sqlite; do
+  python3 -c 'import sqlite3, sys
+db = sqlite3.connect(sys.argv[1])
+db.execute("UPDATE blocks SET payload = CAST(substr(payload, 1, 99) || X'"'5a5a'"' || substr(payload, 102) AS BLOB) WHERE id = 1")
+db.commit()' "$file"
+  damaged=$((damaged + 1))
+done
+said=$(study | grep -c 'damaged blocks removed')
+if [ "$said" != "$damaged" ] || [ "$damaged" != 2 ]; then
+  echo "FAILED: $damaged files were damaged, $said notes say so" >&2
+  exit 1
+fi
+echo "notes: of both ranks"
