@@ -1,6 +1,7 @@
 // Swept values that are texts stand in every export as the study has them.
 #include <gtest/gtest.h>
 
+#include "tests/mc/small_study.hpp"
 #include "tests/support/program.hpp"
 
 namespace drift::swept_text_export_test {
@@ -8,30 +9,15 @@ namespace {
 
 using namespace drift::test;
 
-constexpr const char* study = R"(schema = 1
-[site]
-latitude = "45.75 deg"
-[plan]
-preset = "six"
-dwell = "20 min"
-sample = "2 min"
-[truth]
-coupling = "eq5"
-terms = ["fixed_drift"]
-[[filter]]
-coupling = "eq5"
-terms = ["fixed_drift"]
-[monte_carlo]
-runs = 4
-seed = 5
-[sweep]
-"truth.parameters.D_F_x" = ["-0.1 deg/h", "0.1 deg/h", { normal = ["0 deg/h", "0.2 deg/h"] }]
-)";
+const std::string study = small_study +
+                          "[sweep]\n\"truth.parameters.D_F_x\" = [\"-0.1 deg/h\", \"0.1 deg/h\", { "
+                          "normal = [\"0 deg/h\", \"0.2 deg/h\"] }]\n";
 
 TEST(SweptTextExport, AQuantityBelowZeroIsItselfInEveryFormat) {
   const ScratchFolder scratch;
   const std::string out = scratch.file("out");
-  const Answer run = driftscope("run " + scratch.write("s.toml", study) + " --threads 1 -o " + out);
+  const Answer run =
+      driftscope("run " + scratch.write("s.toml", study) + " --runs 4 --threads 1 -o " + out);
   ASSERT_EQ(run.code, 0) << run.err;
   for (const char* format : {"csv", "hdf5", "json"})
     ASSERT_EQ(driftscope("export " + out + " --format " + format).code, 0) << format;
