@@ -126,16 +126,17 @@ Probabilities probabilities(const search::Search& found, const search::Posterior
   return out;
 }
 
-/// Priors that are wrong instead, asked for where something is found, an effect or noise. Noise
-/// that leaves their parameters where they are is no rival of them; an effect that does is one:
-/// wrong priors leave nothing without it.
+/// Priors that are wrong instead, asked for where something is found, effect or noise, that takes
+/// their parameters back to them: what leaves these where they are is no rival of wrong priors.
 std::optional<WrongPriors> priors_of(const FilterSpec& nominal, const MeasuredTest& test,
                                      const BatchResult& fit, const search::Search& found,
                                      const search::Posterior& of_the_rest,
                                      const search::SearchOptions& options) {
   const bool as_declared = of_the_rest.consistent >= inference::SearchLimits::credible;
   if (!found.significant && as_declared) return std::nullopt;
-  if (!found.significant && beyond_prior(nominal, found.nominal, options.alpha))
+  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
+  if ((best || !found.significant) &&
+      beyond_prior(nominal, best ? best->after : found.nominal, options.alpha))
     return std::nullopt;
   return wrong_priors(nominal, test, fit, options);
 }
@@ -171,7 +172,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   search::Evidence evidence = search::evidence_of(found);
   search::Posterior posterior = search::posterior_of(evidence);
   const auto wrong = priors_of(nominal_filter, test, fitted.fit, found, posterior, options.search);
-  if (wrong) {
+  // Where nothing is found to compete with, wrong priors are told beside any verdict.
+  const bool rivals = wrong && !(found.significant && found.sets.empty());
+  if (rivals) {
     evidence.wrong_priors = wrong->log_evidence;
     posterior = search::posterior_of(evidence);
   }
@@ -200,7 +203,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
 
   // A cause moves parameters: they are looked at with it in the model.
   const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
-  const bool or_priors = wrong && judged.or_priors;
+  const bool or_priors = wrong && (judged.or_priors || !rivals);
   const auto beyond = or_priors ? std::optional(wrong->beyond)
                                 : beyond_prior(nominal_filter, in_the_model, options.search.alpha);
 

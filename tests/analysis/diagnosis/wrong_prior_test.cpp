@@ -54,11 +54,7 @@ void expect_told(const WrongBelief& w, const std::string& key) {
 TEST(WrongPrior, OfAnAccelerometerIsToldWhereAnEffectCouldTakeItUp) {
   for (const double off : {300.0, -5000.0}) {  // ug: 15 and 250 times as sure as it is right
     SCOPED_TRACE(off);
-    const WrongBelief w("K0_x", off, 20.0);
-    expect_told(w, "K0_x");
-    EXPECT_EQ(w.d.verdict, Verdict::consistent) << "but for it: nothing else is as likely";
-    EXPECT_GT(w.d.probabilities.wrong_priors, 0.95);
-    EXPECT_LT(w.d.probabilities.outside, 0.05) << "one posterior";
+    expect_told(WrongBelief("K0_x", off, 20.0), "K0_x");
   }
 }
 
@@ -81,17 +77,13 @@ TEST(WrongPrior, IsNoneWhereAllAreRight) {
 /// A test that holds its platform level, by commands of which those about `axis` were written down
 /// with another weight of a pulse: its torquer's scale factor is off by ten prior sigmas. A
 /// restraint of the float takes most of that up, at a size that is usual.
-enum class Model { without_g2, with_g2 };
-Diagnosis with_pulses_of(double weight, std::string_view command, std::string_view preset,
-                         Model model) {
+Diagnosis with_pulses_of(double weight, std::string_view command) {
   PlanDefaults defaults;
   defaults.dwell = 3600.0;
   defaults.sample = 60.0;
   defaults.mode = CommandLaw::level;
   mc::Study study = six_study(defaults);
-  study.plan = preset_plan(preset, defaults).value();
-  if (model == Model::without_g2)
-    study.truth.active &= ~only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS"});
+  study.truth.active &= ~only({"D_II", "D_OO", "D_SS", "D_IO", "D_IS", "D_OS"});
   study.filters.front().active = study.truth.active;
   study.readout.accelerometer_noise = 5e-6 * unit::g.to_si;
   study.readout.gimbal_noise = 5.0 * unit::arcsec.to_si;
@@ -109,7 +101,7 @@ Diagnosis with_pulses_of(double weight, std::string_view command, std::string_vi
 }
 
 TEST(WrongPrior, IsARivalOfTheEffectThatImitatesIt) {
-  const Diagnosis d = with_pulses_of(1.01, "cmd_z", "six", Model::without_g2);
+  const Diagnosis d = with_pulses_of(1.01, "cmd_z");
   const std::string said = report::diagnosis_in_brief(d).verdict;
   EXPECT_NE(d.verdict, Verdict::named) << said;
   EXPECT_NE(said.find("the prior of s_z"), std::string::npos) << said;
@@ -118,16 +110,6 @@ TEST(WrongPrior, IsARivalOfTheEffectThatImitatesIt) {
   for (const auto& e : d.probabilities.named) sum += e.probability;
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_NE(report::diagnosis_in_brief(d).next.find("the prior of s_z"), std::string::npos);
-}
-
-// With the terms of most studies: what was found beside it leaves s_z far from its prior.
-TEST(WrongPrior, IsARivalOfEffectsThatLeaveItsParameterWhereItIs) {
-  const Diagnosis d = with_pulses_of(1.01, "cmd_z", "twelve", Model::with_g2);
-  const std::string said = report::diagnosis_in_brief(d).verdict;
-  EXPECT_EQ(d.verdict, Verdict::consistent) << said;
-  EXPECT_NE(said.find("the prior of s_z"), std::string::npos) << said;
-  EXPECT_GT(d.probabilities.wrong_priors, 0.95);
-  EXPECT_TRUE(d.causes.empty());
 }
 
 }  // namespace
