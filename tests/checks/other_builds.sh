@@ -48,7 +48,7 @@ for way; do
       # Archer tells the sanitizer how OpenMP keeps threads apart; the libraries are not instrumented.
       OMP_TOOL_LIBRARIES=$(clang --print-resource-dir)/../../libarcher.so OMP_NUM_THREADS=4 \
         TSAN_OPTIONS="ignore_noninstrumented_modules=1 halt_on_error=1" \
-        build/tsan/bin/driftscope_mc_tests --gtest_filter='Engine*:KeptRuns*:TimeForGroups*:Store*:Manifest*:MonteCarlo*:PointStatistics*:StudyTask*:Trace*'
+        build/tsan/bin/driftscope_mc_tests --gtest_filter='Engine*:KeptRuns*:TimeForGroups*:Store*:Manifest*:Salvage*:MonteCarlo*:PointStatistics*:StudyTask*:Trace*'
       ;;
   esac
 done
