@@ -10,6 +10,13 @@
 #include "analysis/search/scores/log_sum.hpp"
 
 namespace drift::search {
+namespace {
+
+double value_of(const inference::Variant& v, std::size_t param) {
+  return std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first)->second;
+}
+
+}  // namespace
 
 double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices, std::size_t which,
                       std::size_t param, double value) {
@@ -31,34 +38,29 @@ double setting_spread(const Fitted& nominal, const std::vector<Choice>& choices,
 
 double settings_apart(const Fitted& nominal, const Choice& choice, std::size_t param) {
   const auto& variants = nominal.set.candidates[choice.candidate].variants;
-  const auto value_of = [&](const inference::Variant& v) {
-    return std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first)->second;
-  };
-  const double own = value_of(variants[choice.variant]);
+  const double own = value_of(variants[choice.variant], param);
   double apart = std::numeric_limits<double>::infinity();
   for (const inference::Variant& v : variants)
-    if (const double off = std::abs(value_of(v) - own); off > 0.0) apart = std::min(apart, off);
+    if (const double off = std::abs(value_of(v, param) - own); off > 0.0)
+      apart = std::min(apart, off);
   return std::isfinite(apart) ? apart : 0.0;
 }
 
 std::vector<double> credible_settings(const Fitted& nominal, const std::vector<Choice>& choices,
                                       std::size_t which, std::size_t param, double credible) {
   const auto& variants = nominal.set.candidates[choices[which].candidate].variants;
-  const auto value_of = [&](const inference::Variant& v) {
-    return std::ranges::find(v.settings, param, &std::pair<std::size_t, double>::first)->second;
-  };
   const std::vector<double> evidence = evidence_of_settings(nominal, choices, which);
   const double top = std::ranges::max(evidence);
   std::map<double, double> weight;
   double sum = 0.0;
   for (std::size_t v = 0; v < variants.size() && top != never; ++v) {
     const double w = variants[v].share * std::exp(evidence[v] - top);
-    weight[value_of(variants[v])] += w;
+    weight[value_of(variants[v], param)] += w;
     sum += w;
   }
   std::vector<std::pair<double, double>> by_weight(weight.begin(), weight.end());
   std::ranges::stable_sort(by_weight, std::greater{}, &std::pair<double, double>::second);
-  std::set<double> values{value_of(variants[choices[which].variant])};
+  std::set<double> values{value_of(variants[choices[which].variant], param)};
   double held = 0.0;
   for (const auto& [value, w] : by_weight) {
     if (held >= credible * sum) break;

@@ -16,7 +16,6 @@ namespace drift {
 namespace {
 
 using Slope = Dual<1>;
-constexpr std::uint64_t scenes = 100;
 
 /// Scene number k: some with as much as possible at zero or along an axis, the rest anywhere.
 std::vector<double> own_scene(std::uint64_t k, std::size_t inputs) {
@@ -84,6 +83,22 @@ std::string inputs_told(const EquationProgram& program, const std::vector<double
 
 namespace {
 
+/// Whether the value follows a parameter otherwise than through `step` or `sign`.
+bool is_outside_steps(const EquationProgram& program, std::size_t param) {
+  std::vector<bool> follows;  // what is on the stack
+  for (std::size_t k = 0; k < program.size; ++k) {
+    const Instruction& i = program.code[k];
+    const int operands = operands_of(i.op);
+    bool any = i.op == Operation::parameter && static_cast<std::size_t>(i.index) == param;
+    for (int n = 0; n < operands; ++n) {
+      any = any || follows.back();
+      follows.pop_back();
+    }
+    follows.push_back(any && i.op != Operation::step && i.op != Operation::sign);
+  }
+  return follows.back();
+}
+
 bool has_power(const EquationProgram& program) {
   return std::any_of(program.code.begin(),
                      program.code.begin() + static_cast<std::ptrdiff_t>(program.size),
@@ -95,6 +110,7 @@ bool has_power(const EquationProgram& program) {
 std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
                                                  const std::vector<ParamSpec>& params,
                                                  const std::vector<std::string>& inputs) {
+  constexpr std::uint64_t scenes = 100;
   for (std::uint64_t k = 0; k < scenes; ++k)
     for (std::size_t grid = 0; grid <= (k < 12 ? Grid::capacity : 0); ++grid) {
       const auto values = own_scene(k, inputs.size());
@@ -124,18 +140,8 @@ bool has_slope(std::size_t param) {
   for (std::size_t own = 0; own < own_terms().terms.size(); ++own) {
     const OwnTerm& term = own_terms().terms[own];
     const std::size_t first = TermLibrary::terms[TermLibrary::num_known + own].first;
-    if (param < first || param >= first + term.params.size()) continue;
-    for (std::uint64_t k = 0; k < scenes; ++k) {
-      const auto values = own_scene(k, own_inputs.size() + own_terms().covariates.size());
-      const auto p = parameter_values(term.params, 0);
-      std::vector<Slope> moved(p.begin(), p.end());
-      moved[param - first].d[0] = 1.0;
-      const Slope y = evaluate_program(term.program, moved.data(), [&](int index) {
-        return Slope(values[static_cast<std::size_t>(index)]);
-      });
-      if (y.d[0] != 0.0) return true;
-    }
-    return false;
+    if (param >= first && param < first + term.params.size())
+      return is_outside_steps(term.program, param - first);
   }
   return true;
 }

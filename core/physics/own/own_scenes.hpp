@@ -17,8 +17,8 @@ std::optional<EquationMistake> mistake_in_scenes(const EquationProgram& program,
                                                  const std::vector<ParamSpec>& params,
                                                  const std::vector<std::string>& inputs);
 
-/// Whether a parameter of an own term of the library (own_terms()) has a slope anywhere there. One
-/// that stands inside `step` or `sign` alone has none: no fit is led to it. True of all others.
+/// Whether an equation has a slope in a parameter of own_terms(), by how it is written: in one that
+/// stands inside `step` or `sign` alone it has none, and no fit is led to it. True of all others.
 bool has_slope(std::size_t param);
 
 }  // namespace drift

@@ -51,6 +51,14 @@ TEST(Diagnose, AnOnsetThatHasNoSlopeIsFoundToARowBeforeAnythingIsCalledForBeside
   EXPECT_FALSE(has_slope(param("ons_C")));
   EXPECT_TRUE(has_slope(param("ons_A")));
   EXPECT_TRUE(has_slope(param("D_F_x"))) << "of the library";
+  {
+    const OwnTermsHeld steep(own_term("steep", "drift.y", "A*(1 + tanh((t - C)/S))/2*step(F - t)",
+                                      "A = { unit = 'deg/h', prior = 0.02 }, C = { unit = 'h', "
+                                      "value = 6 }, S = { unit = 'min', value = 1 }, F = { unit = "
+                                      "'h', value = 9 }"));
+    EXPECT_TRUE(has_slope(param("steep_C"))) << "though it is none but about 6 h";
+    EXPECT_FALSE(has_slope(param("steep_F")));
+  }
   const Timeline timeline = preset_timeline("twentyfour", CommandLaw::free, 1800.0, 60.0);
   TruthSpec truth = base_truth(Coupling::eq5);
   truth.active |= params_named("ons");
