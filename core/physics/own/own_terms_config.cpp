@@ -56,7 +56,14 @@ bool is_taken(std::string_view name, const std::vector<OwnTerm>& before) {
          });
 }
 
-/// The name of a term; empty, and reported, if it has none that it can be called by.
+/// Whether it is the name of a term but for its capitals.
+bool is_term_in_capitals(std::string_view key, const std::vector<OwnTerm>& before) {
+  const auto is_called = [&](const auto& term) { return alike(term.key, key) && term.key != key; };
+  return std::ranges::any_of(TermLibrary::known_terms, is_called) ||
+         std::ranges::any_of(before, is_called);
+}
+
+/// The name of a term; reported, and mostly empty, if it is none that it can be called by.
 std::string read_own_key(Section& section, const std::vector<OwnTerm>& before) {
   constexpr std::size_t longest = 24;  // leaves room for the names of parameters
   std::string key;
@@ -73,7 +80,8 @@ std::string read_own_key(Section& section, const std::vector<OwnTerm>& before) {
                   section.full("key"), key,
                   taken ? "is the name of another term or parameter" : "cannot be a name",
                   longest));
-  return {};
+  // One that differs in capitals alone shall not be unknown too, where the study calls it.
+  return is_term_in_capitals(key, before) ? key : std::string();
 }
 
 /// All that a term was made of, for comparing; whatever the order of the keys in the file.

@@ -247,6 +247,13 @@ TEST_F(OwnTermsConfig, ATermHasANameOfItsOwn) {
     SCOPED_TRACE(key);
     expect_says(mistake(rumble + own_term(key, "drift.x", "A", A)), "a name of its own");
   }
+  // One that differs in capitals alone is not unknown too, where the study calls it.
+  std::string called = head;
+  for (std::size_t at; (at = called.find("rumble")) != std::string::npos;)
+    called.replace(at, 6, "Drift_Ramp");
+  const auto one = mistakes(called + own_term("Drift_Ramp", "drift.x", "A", A));
+  ASSERT_EQ(one.size(), 1u);
+  expect_says(one[0], "is the name of another");
   // rumble_A of the second is what the first calls its parameter A.
   expect_says(
       mistake(rumble + own_term("rumble_A", "drift.x", "x", "x = { unit = 'deg/h', prior = 1 }")),
