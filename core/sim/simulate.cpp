@@ -6,6 +6,7 @@
 #include "core/physics/stochastic.hpp"
 #include "core/plan/stretches_and_chains.hpp"
 #include "core/sim/instruments.hpp"
+#include "core/sim/own_terms_drawn.hpp"
 #include "core/sim/platform_ode.hpp"
 
 namespace drift {
@@ -156,6 +157,10 @@ void Simulator::integrate(const Timeline& timeline, std::size_t first, std::size
     out.cost.jacobian_calls += stats.jacobian_calls;
     first = last;
   }
+  if (out.ode.ok()) return;
+  // What grows without bounds is mostly a term of the study's own.
+  if (const std::string own = own_terms_drawn(model_.terms, out.draw.theta); !own.empty())
+    out.ode.cause += ", with " + own;
 }
 
 /// What makes a sample wrong, in units of its noise; nearly always nothing.

@@ -34,8 +34,9 @@ class Tested {
     draw_.theta[param("own_A")] = A * deg_per_h;
   }
   void set(const char* key, double value) { draw_.theta[param(key)] = value; }
+  Simulation run() { return Simulator(truth_, {}).run(timeline_, draw_, 1, 0); }
   double angle_at(double t) {
-    const Simulation sim = Simulator(truth_, {}).run(timeline_, draw_, 1, 0);
+    const Simulation sim = run();
     EXPECT_TRUE(sim.ode.ok()) << sim.ode.cause;
     const auto i = std::ranges::find_if(timeline_.intervals,
                                         [&](const Interval& at) { return at.t1 > t - 1.0; });
@@ -85,6 +86,18 @@ TEST(OwnTermTruth, AndWhatSwitchesManyTimesInARow) {
                                    "25 }"));
   Tested test(truth_with_own());
   expect_turned(test.angle_at(600.0), 300.0);
+}
+
+TEST(OwnTermTruth, OneThatGrowsWithoutBoundsIsNamedWhereARunFails) {
+  const OwnTermsHeld held(
+      own_term("own", "rate.x", "A*exp(-t/T)",
+               "A = { unit = 'deg/h', prior = 2 }, T = { unit = 'min', value = 30, prior = 60 }"));
+  Tested test(truth_with_own());
+  test.set("own_T", -60.0);
+  const Simulation failed = test.run();
+  ASSERT_FALSE(failed.ode.ok());
+  EXPECT_TRUE(failed.ode.cause.ends_with(", with own (own_A = 2 deg/h, own_T = -1 min)"))
+      << failed.ode.cause;
 }
 
 }  // namespace
