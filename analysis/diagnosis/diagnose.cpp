@@ -10,6 +10,7 @@
 #include "analysis/diagnosis/candidate_table.hpp"
 #include "analysis/diagnosis/causes.hpp"
 #include "analysis/diagnosis/compare.hpp"
+#include "analysis/diagnosis/doubts/believed.hpp"
 #include "analysis/diagnosis/doubts/wrong_priors.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/diagnosis/located.hpp"
@@ -116,29 +117,10 @@ Probabilities probabilities(const search::Search& found, const search::Posterior
     out.noise_only += p.consistent;
     out.consistent = p.wrong_priors;
   }
-  for (const auto& [choices, probability] : p.named) {
-    out.named.push_back({{}, probability});
-    for (const search::Choice& choice : choices) {
-      const inference::Candidate& c = found.nominal.set.candidates[choice.candidate];
-      out.named.back().causes.push_back({c.term, c.axis, c.label});
-    }
-  }
+  out.other_priors = p.other_priors;
+  for (const auto& [choices, probability] : p.named)
+    out.named.push_back({named_effects(found, choices), probability});
   return out;
-}
-
-/// Priors that are wrong instead, asked for where something is found, effect or noise, that takes
-/// their parameters back to them: what leaves these where they are is no rival of wrong priors.
-std::optional<WrongPriors> priors_of(const FilterSpec& nominal, const MeasuredTest& test,
-                                     const BatchResult& fit, const search::Search& found,
-                                     const search::Posterior& of_the_rest,
-                                     const search::SearchOptions& options) {
-  const bool as_declared = of_the_rest.consistent >= inference::SearchLimits::credible;
-  if (!found.significant && as_declared) return std::nullopt;
-  const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
-  if ((best || !found.significant) &&
-      beyond_prior(nominal, best ? best->after : found.nominal, options.alpha))
-    return std::nullopt;
-  return wrong_priors(nominal, test, fit, options);
 }
 
 template <class T>
@@ -168,16 +150,12 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   search::Fitted examined = plain ? search::examine(nominal_filter, test, fitted.fit, *plain)
                                   : search::examine(nominal_filter, test, fitted.fit);
   stages.begin("search", 0.5);
-  search::Search found = search::search(std::move(examined), test, options.search);
-  search::Evidence evidence = search::evidence_of(found);
-  search::Posterior posterior = search::posterior_of(evidence);
-  const auto wrong = priors_of(nominal_filter, test, fitted.fit, found, posterior, options.search);
-  // Where nothing is found to compete with, wrong priors are told beside any verdict.
-  const bool rivals = wrong && !(found.significant && found.sets.empty());
-  if (rivals) {
-    evidence.wrong_priors = wrong->log_evidence;
-    posterior = search::posterior_of(evidence);
-  }
+  Believed world =
+      believed(nominal_filter, test, fitted.fit,
+               search::search(std::move(examined), test, options.search), options.search);
+  const FilterSpec& as_believed = world.nominal;
+  search::Search& found = world.found;
+  const search::Posterior& posterior = world.posterior;
   search::give_settings_room(found, test);
   const search::Fitted& nominal = found.nominal;
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
@@ -203,9 +181,9 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
 
   // A cause moves parameters: they are looked at with it in the model.
   const search::Fitted& in_the_model = best && alarm ? best->after : nominal;
-  const bool or_priors = wrong && (judged.or_priors || !rivals);
-  const auto beyond = or_priors ? std::optional(wrong->beyond)
-                                : beyond_prior(nominal_filter, in_the_model, options.search.alpha);
+  auto beyond = world.instead ? world.instead
+                              : beyond_prior(nominal_filter, in_the_model, options.search.alpha);
+  if (beyond) beyond->taken = world.wrong_priors;
 
   if (judged.verdict == Verdict::unexplained && !(beyond && beyond->explains) &&
       options.proposing != Proposing::left_out) {
@@ -215,11 +193,11 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
     if (d.proposal) move_to(place, *d.proposal);
   }
   d.profiles = profiled(found, test, causes.causes, options, stages);
-  set_intervals(causes.causes, d.profiles, nominal_filter);
+  set_intervals(causes.causes, d.profiles, as_believed);
   stages.begin("starts", 0.07);
   d.fit.start_spread_before = d.fit.start_spread_after = fitted.start_spread;
   if (best && !starts.empty())
-    d.fit.start_spread_after = patched_spread(nominal_filter, test, starts, *best);
+    d.fit.start_spread_after = patched_spread(as_believed, test, starts, *best);
   stages.end();
 
   d.verdict = judged.verdict;
@@ -239,11 +217,11 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.not_examined = not_examined(nominal, d.causes, test.timeline);
   d.probabilities = probabilities(found, posterior, d.noise);
   if (judged.of_no_noise)  // all of them take the noise for known
-    d.probabilities = {nan_value, nan_value, nan_value, {}, nan_value};
+    d.probabilities = {nan_value, nan_value, nan_value, {}, nan_value, nan_value};
   d.nominal = nominal_filter;
   d.patched = best && alarm
                   ? started_where_found(with_room_for_causes(best->filter, d.causes), d.causes)
-                  : nominal_filter;
+                  : as_believed;
   d.has_patch = best != nullptr && alarm;
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);
@@ -254,6 +232,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
   if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
   append(d.remarks, beyond);
+  append(d.remarks, world.other);
   const std::span<const search::Refit> sets(found.sets);
   append(d.remarks, memory_off(in_the_model, alarm ? sets : sets.first(0), test.timeline));
   append(d.remarks, equation_against_other(d));

@@ -56,7 +56,7 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
              const std::vector<double>& member_gains, NamedBy by) {
   Judged out;
   constexpr double credible = inference::SearchLimits::credible;
-  out.or_priors = posterior.wrong_priors > 1.0 - credible;
+  const bool or_priors = posterior.wrong_priors + posterior.other_priors > 1.0 - credible;
   if (!found.significant) {
     out.one_gyro = noise_of_one_axis(nominal);
     if (const double gain = log_gain_of_more_noise(nominal.projector->marginal());
@@ -78,7 +78,7 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   const bool judged =
       by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
   const bool nameable = !best || (best->nameable && !found.just_not);
-  const bool alone = one && !or_noise && !out.or_priors;
+  const bool alone = one && !or_noise && !or_priors;
   out.verdict = !best                         ? Verdict::unexplained
                 : alone && judged && nameable ? Verdict::named
                                               : Verdict::ambiguous;

@@ -23,7 +23,6 @@ struct Judged {
   std::optional<remark::DrivesOneGyro> one_gyro;  ///< why it is `unexplained`, if that is why
   /// Likewise: the chance that the rows are of the noise that was found, by which they are not.
   std::optional<double> of_no_noise;
-  bool or_priors = false;  ///< that priors of the nominal model are wrong is credible
 };
 
 /// Whether a cause must predict held-out positions better to be named.
@@ -32,10 +31,11 @@ enum class NamedBy { held_out, fit_alone };
 /// What is significant is an alarm only if the probabilities agree: not where nothing missing is
 /// the more probable, or, where noise not as declared explains what a cause does or priors that are
 /// wrong do, has SearchLimits::credible of them. A cause is named only where nothing missing is not
-/// credible, and wrong priors of the nominal model are not. Where nothing is found but the rows are
-/// not of the noise that was found either (one more factor of noise would be a million times as
-/// likely, its price paid, and more than twice as large; or no likelihood can be had of them at
-/// all), it is unexplained. member_gains: of the best explanation, as judge_members() gives them.
+/// credible, and the other way round about the priors of the nominal model is not. Where nothing is
+/// found but the rows are not of the noise that was found either (one more factor of noise would be
+/// a million times as likely, its price paid, and more than twice as large; or no likelihood can be
+/// had of them at all), it is unexplained. member_gains: of the best explanation, as
+/// judge_members() gives them.
 Judged judge(const search::Fitted& nominal, const search::Search& found,
              const search::Posterior& posterior, const HeldOut& held_out,
              const std::vector<double>& member_gains, NamedBy by);

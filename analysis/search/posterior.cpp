@@ -107,29 +107,42 @@ double log_outside(const Search& found, const LibraryPrior& prior,
 
 }  // namespace
 
+double log_of_missing(const Evidence& e) {
+  double total = std::log(PosteriorPrior::outside) + e.outside;
+  for (const Evidence::Weighed& w : e.library)
+    total = log_sum(total, std::log(PosteriorPrior::library) + w.log_weight);
+  return total;
+}
+
+double log_total(const Evidence& e) {
+  const double nothing = log_sum(log_sum(e.declared, e.estimated), e.wrong_priors);
+  return log_sum(log_sum(std::log(PosteriorPrior::nothing) + nothing, e.other_priors),
+                 log_of_missing(e));
+}
+
 Posterior posterior_of(const Evidence& e) {
   const double declared = std::log(PosteriorPrior::nothing) + e.declared,
                estimated = std::log(PosteriorPrior::nothing) + e.estimated,
                outside = std::log(PosteriorPrior::outside) + e.outside,
                wrong = std::log(PosteriorPrior::nothing) + e.wrong_priors,
-               library = std::log(PosteriorPrior::library);
-  double total = log_sum(log_sum(log_sum(declared, estimated), outside), wrong);
-  for (const Evidence::Weighed& w : e.library) total = log_sum(total, library + w.log_weight);
+               library = std::log(PosteriorPrior::library), total = log_total(e);
   Posterior out;
   out.consistent = std::exp(declared - total);
   out.noise_only = std::exp(estimated - total);
   out.outside = std::exp(outside - total);
   out.wrong_priors = std::exp(wrong - total);
+  out.other_priors = std::exp(e.other_priors - total);
   for (const Evidence::Weighed& w : e.library)
     if (const double p = std::exp(library + w.log_weight - total); p >= PosteriorPrior::listed)
       out.named.push_back({w.choices, p});
   std::ranges::stable_sort(out.named, std::greater{}, &Posterior::Explained::probability);
-  double sum = out.consistent + out.noise_only + out.outside + out.wrong_priors;
+  double sum = out.consistent + out.noise_only + out.outside + out.wrong_priors + out.other_priors;
   for (const auto& n : out.named) sum += n.probability;
   out.consistent /= sum;
   out.noise_only /= sum;
   out.outside /= sum;
   out.wrong_priors /= sum;
+  out.other_priors /= sum;
   for (auto& n : out.named) n.probability /= sum;
   return out;
 }

@@ -19,6 +19,9 @@ struct Posterior {
   double outside = 0.0;     ///< something that no term of the library describes
   /// Nothing missing, but priors of the nominal model wrong; 0 where none was asked about.
   double wrong_priors = 0.0;
+  /// The other way round about the priors of the nominal model: all right where this is of wrong
+  /// ones, and else wrong ones with something missing besides. 0 where that was not asked about.
+  double other_priors = 0.0;
   /// Explanations by the library, most probable first; what is below a thousandth is shared out
   /// over all.
   struct Explained {
@@ -40,8 +43,12 @@ struct Evidence {
   };
   std::vector<Weighed> library;
   double wrong_priors = never;  ///< nothing missing, how rare such priors are included
+  double other_priors = never;  ///< Posterior::other_priors, the prior over the three included
 };
 Posterior posterior_of(const Evidence& evidence);
+/// Of all that an evidence lists, together, and of that where something is missing.
+double log_total(const Evidence& evidence);
+double log_of_missing(const Evidence& evidence);
 
 /// Of a search that found nothing significant: by the linearised scores of single candidates;
 /// otherwise of the explanations that were fitted. Nothing of wrong priors.

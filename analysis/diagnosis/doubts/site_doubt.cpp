@@ -70,6 +70,13 @@ bool worth_asking(const Diagnosis& d) {
   return own > SiteLimits::worth_asking * top && size > SiteLimits::survey;
 }
 
+/// Whether nothing is said to be missing but because priors would be wrong: those of three D_I at
+/// once are Earth rate, and an effect beside another latitude may hide below them.
+bool rests_on_wrong_priors(const Diagnosis& d) {
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  return d.verdict == Verdict::consistent && beyond && beyond->explains;
+}
+
 /// The patched model with the causes of usual sizes alone: what another latitude has beside it.
 FilterSpec without_unusual(const Diagnosis& d) {
   FilterSpec filter = d.patched;
@@ -142,7 +149,7 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
     alone = against_causes(*alone, d);
     if (alone->alone()) return {alone, nullptr};
   }
-  if (unusual || d.verdict == Verdict::unexplained) {
+  if (unusual || d.verdict == Verdict::unexplained || rests_on_wrong_priors(d)) {
     auto about = alone;
     if (!about && unusual)
       about = identification::latitude_doubt(study, recordings, without_unusual(d));

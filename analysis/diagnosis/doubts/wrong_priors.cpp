@@ -50,6 +50,84 @@ remark::BeyondPrior far_from(const FilterSpec& nominal, EstimateResult estimate,
   return out;
 }
 
+/// A model with priors as wide as that.
+FilterSpec with_room(FilterSpec model, const remark::BeyondPrior& beyond) {
+  for (const remark::BeyondPrior::Parameter& p : beyond.parameters)
+    model.priors[p.estimate.param] =
+        normal(p.estimate.prior_mean, p.sigmas * p.estimate.prior_sigma);
+  return model;
+}
+
+struct Widened {
+  FilterSpec filter;
+  BatchResult fit;
+  remark::BeyondPrior beyond;
+};
+
+/// A model with priors as wide as the data take the nominal parameters from their means. Nothing if
+/// none is far off. model: the nominal one, or that with causes. fit: of it.
+std::optional<Widened> widened(const FilterSpec& nominal, const FilterSpec& model,
+                               const MeasuredTest& test, const BatchResult& fit, double alpha) {
+  constexpr int passes = 8;        // a prior holds back what is far from it: each gives more room
+  constexpr double settled = 1.1;  // times the width of the pass before
+  Widened out{model, fit, {}};
+  std::size_t before = 0;  // parameters, in the pass before
+  for (int pass = 0; pass < passes; ++pass) {
+    out.beyond = far_from(nominal, out.fit.estimate, alpha);
+    if (out.beyond.parameters.empty()) return std::nullopt;
+    const FilterSpec wider = with_room(model, out.beyond);
+    bool same = out.beyond.parameters.size() == std::exchange(before, out.beyond.parameters.size());
+    for (const remark::BeyondPrior::Parameter& p : out.beyond.parameters)
+      same = same && wider.priors[p.estimate.param].sigma() <
+                         settled * out.filter.priors[p.estimate.param].sigma();
+    if (same) break;
+    out.filter = wider;
+    out.fit = fit_batch_from(out.filter, test, theta_of(out.filter, out.fit), out.fit.psi0_l);
+  }
+  return out;
+}
+
+/// The nominal model with room for what an effect leaves beyond its prior, where that is less than
+/// without the effect.
+std::optional<Widened> widened_beside(const search::Refit& effect, const FilterSpec& nominal,
+                                      const MeasuredTest& test, double alpha) {
+  FilterSpec model = effect.filter;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (nominal.active[i]) model.priors[i] = nominal.priors[i];
+  auto beside = widened(nominal, model, test, effect.after.fit, alpha);
+  if (!beside) return std::nullopt;
+  Widened out{with_room(nominal, beside->beyond), {}, std::move(beside->beyond)};
+  out.fit = fit_batch_from(out.filter, test, theta_of(out.filter, effect.after.fit),
+                           effect.after.fit.psi0_l);
+  return out;
+}
+
+/// How rare such priors are.
+double log_rarity(const remark::BeyondPrior& beyond) {
+  return static_cast<double>(beyond.parameters.size()) * std::log(inference::SiteLimits::another);
+}
+
+/// Whether one effect of the library is all that was found, and leaves nothing.
+bool is_one_effect(const FilterSpec& nominal, const search::Search& found, double alpha) {
+  return !found.sets.empty() && found.sets.front().choices.size() == 1 && !found.just_not &&
+         !beyond_prior(nominal, found.sets.front().after, alpha);
+}
+
+/// Whether a model with room, with one effect at the most, may come within reach of what was found;
+/// linearised, one of its priors wrong.
+bool within_reach(const search::Fitted& with_room, double log_total_of_right) {
+  double best = 0.0;
+  for (const search::Score& s : with_room.scores) best = std::max(best, s.log_bayes);
+  return with_room.log_evidence() + best + std::log(inference::SiteLimits::another) >
+         log_total_of_right - inference::ReachLimits::negligible;
+}
+
+search::Evidence as_rare(search::Evidence e, double log_rarity) {
+  for (double* part : {&e.declared, &e.estimated, &e.outside}) *part += log_rarity;
+  for (search::Evidence::Weighed& w : e.library) w.log_weight += log_rarity;
+  return e;
+}
+
 }  // namespace
 
 std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
@@ -59,35 +137,28 @@ std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
 }
 
 std::optional<WrongPriors> wrong_priors(const FilterSpec& nominal, const MeasuredTest& test,
-                                        const BatchResult& fit,
+                                        const BatchResult& fit, const search::Search& right,
+                                        double log_total_of_right,
                                         const search::SearchOptions& options) {
-  constexpr int passes = 8;        // a prior holds back what is far from it: each gives more room
-  constexpr double settled = 1.1;  // times the width of the pass before
-  FilterSpec wide = nominal;
-  BatchResult at = fit;
-  remark::BeyondPrior out;
-  std::size_t widened = 0;  // parameters, in the pass before
-  for (int pass = 0; pass < passes; ++pass) {
-    out = far_from(nominal, at.estimate, options.alpha);
-    if (out.parameters.empty()) return std::nullopt;
-    FilterSpec wider = nominal;
-    bool same = out.parameters.size() == std::exchange(widened, out.parameters.size());
-    for (const remark::BeyondPrior::Parameter& p : out.parameters) {
-      const double width = p.sigmas * p.estimate.prior_sigma;
-      wider.priors[p.estimate.param] = normal(p.estimate.prior_mean, width);
-      same = same && width < settled * wide.priors[p.estimate.param].sigma();
-    }
-    if (same) break;
-    wide = wider;
-    at = fit_batch_from(wide, test, theta_of(wide, at), at.psi0_l);
+  constexpr int passes = 3;  // an effect takes some of them back, and others come to be named
+  std::optional<WrongPriors> out;
+  const bool one_effect = is_one_effect(nominal, right, options.alpha);
+  auto wide = widened(nominal, nominal, test, fit, options.alpha);
+  for (int pass = 0; wide && pass < passes; ++pass) {
+    if (out && wide->beyond.parameters.size() >= out->beyond.parameters.size()) break;
+    search::Fitted examined = search::examine(wide->filter, test, wide->fit);
+    // Another effect and a wrong prior, in the place of one effect alone, must be seen from afar.
+    if (one_effect && !within_reach(examined, log_total_of_right)) break;
+    search::Search found = search::search(std::move(examined), test, options);
+    search::Evidence evidence = as_rare(search::evidence_of(found), log_rarity(wide->beyond));
+    if (out && search::log_total(evidence) < search::log_total(out->evidence)) break;
+    out = WrongPriors{wide->beyond, wide->filter, std::move(found), std::move(evidence)};
+    out->beyond.explains = !out->found.significant;
+    if (out->found.sets.empty()) break;
+    wide = widened_beside(out->found.sets.front(), nominal, test, options.alpha);
+    if (!wide) return std::nullopt;  // the effect, where all priors are right
   }
-  const search::Detection left = search::detect(search::examine(wide, test, at), test, options);
-  if (left.significant) return std::nullopt;
-  out.explains = true;
-  const double rarity =
-      static_cast<double>(out.parameters.size()) * std::log(inference::SiteLimits::another);
-  const double evidence = search::by_noise(left, search::declared_noise(wide)).either();
-  return WrongPriors{std::move(out), rarity + evidence};
+  return out;
 }
 
 }  // namespace drift::diagnosis

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "analysis/diagnosis/findings/remark.hpp"
-#include "analysis/search/detect.hpp"
+#include "analysis/search/posterior.hpp"
 
 namespace drift::diagnosis {
 
@@ -13,21 +13,24 @@ namespace drift::diagnosis {
 std::optional<remark::BeyondPrior> beyond_prior(const FilterSpec& nominal,
                                                 const search::Fitted& fit, double alpha);
 
-/// Such parameters without which nothing significant is missing: where their priors are as wide as
-/// the data take them from their means.
+/// Priors of such parameters that are wrong instead: the nominal model with priors as wide as the
+/// data take these from their means, and what is missing from that.
 struct WrongPriors {
-  remark::BeyondPrior beyond;  ///< `explains`
-  /// Log evidence of the nominal model with those priors, noise as declared or not, and how rare
-  /// such priors are: as any number that a study says (SiteLimits::another), one prior is wrong of
-  /// 1000, and by as much as it is found to be (as sizes of effects beyond their usual ones are,
-  /// inference/size_prior.hpp).
-  double log_evidence = 0.0;
+  remark::BeyondPrior beyond;  ///< `explains` where nothing is
+  FilterSpec filter;           ///< the nominal model with such priors
+  search::Search found;
+  /// With how rare such priors are: as any number that a study says (SiteLimits::another), one
+  /// prior is wrong of 1000, and by as much as it is found to be (as sizes of effects beyond their
+  /// usual ones are, inference/size_prior.hpp).
+  search::Evidence evidence;
 };
 
-/// Empty if there are none, or something is missing beside them. fit: of the nominal model, under
-/// declared noise.
+/// Empty if there are none, or they are far less probable than one effect where priors are right.
+/// Where an effect is missing besides, those are wide that it does not take back. right: what was
+/// found with the priors of the study. fit: of the nominal model, under declared noise.
 std::optional<WrongPriors> wrong_priors(const FilterSpec& nominal, const MeasuredTest& test,
-                                        const BatchResult& fit,
+                                        const BatchResult& fit, const search::Search& right,
+                                        double log_total_of_right,
                                         const search::SearchOptions& options);
 
 }  // namespace drift::diagnosis

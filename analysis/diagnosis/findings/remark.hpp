@@ -94,9 +94,18 @@ struct BeyondPrior {
   std::optional<identification::CommonScale> scales;
   /// Something stands out, and with priors as wide as these parameters lie from theirs nothing.
   bool explains = false;
+  bool taken = false;  ///< what was found takes these priors for wrong: it has room for them
   const Parameter& farthest() const {
     return *std::ranges::max_element(parameters, {}, &Parameter::sigmas);
   }
+};
+/// The other way round about the priors of the nominal model: what was found takes them for right,
+/// or some for wrong.
+struct OtherPriors {
+  enum class Are { right, wrong } are = Are::right;
+  std::vector<std::size_t> parameters;  ///< whose priors may be wrong
+  std::vector<NamedEffect> effects;     ///< missing then; empty: none of the library
+  double probability = 0.0;
 };
 /// The other of eq. (5) and (6) in the place of the nominal one.
 struct OtherEquation {
@@ -146,14 +155,13 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark =
-    std::variant<remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft,
-                 remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted,
-                 remark::OrNoise, remark::SamplesLeftOut, remark::FreeInputExplains,
-                 remark::PeriodExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
-                 remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-                 remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
-                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark = std::variant<
+    remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft, remark::LambdaNotSettled,
+    remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
+    remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
+    remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
+    remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
+    remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
+    remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

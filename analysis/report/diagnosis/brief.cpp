@@ -82,11 +82,12 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
     return "Next: " + advice_in_brief(d.advice.front());
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
-        "Next: {}identify with patched.toml, the study with the cause in its model{}.",
+        "Next: {}identify with patched.toml, the study with the cause in its model{}{}.",
         remark_in<remark::TimesInstead>(d) != nullptr
             ? "look up the sample interval of the log; where its times are right, "
             : "",
-        declares_noise(d) ? " and the noise that was found" : "");
+        declares_noise(d) ? " and the noise that was found" : "",
+        priors_taken_text(d).empty() ? "" : " and room in " + priors_taken_text(d));
   if (const auto other = facts(d.nominal.coupling).other;
       other && std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
     return fmt::format(
@@ -175,7 +176,8 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
       add(Weight::wrong, "Gimbals", gimbal->text + ".");
       off_zero = true;
     }
-  const bool at_fault = labels_are_late(d) || !priors_at_fault_text(d).empty();
+  const bool at_fault = labels_are_late(d) || !priors_at_fault_text(d).empty() ||
+                        (d.verdict == Verdict::named && !priors_taken_text(d).empty());
   if (!d.wrong_study())
     for (const auto& [head, sentence] : doubts_of(d))
       add(at_fault                                                        ? Weight::wrong

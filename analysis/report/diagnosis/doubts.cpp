@@ -30,6 +30,11 @@ std::vector<std::string> keys_of(const remark::BeyondPrior& r) {
   return keys;
 }
 
+std::string priors_text(const remark::BeyondPrior& r) {
+  return fmt::format("the prior{} of {}", r.parameters.size() > 1 ? "s" : "",
+                     listed_up_to(keys_of(r), most_keys));
+}
+
 /// "cmd_x" of s_x at -2.
 std::vector<std::string> reversed_by(const remark::BeyondPrior& r) {
   std::vector<std::string> columns;
@@ -53,9 +58,12 @@ std::vector<std::string> reversed_commands(const Diagnosis& d) {
 
 std::string priors_at_fault_text(const Diagnosis& d) {
   const auto* beyond = remark_in<remark::BeyondPrior>(d);
-  if (beyond == nullptr || !beyond->explains) return "";
-  return fmt::format("the prior{} of {}", beyond->parameters.size() > 1 ? "s" : "",
-                     listed_up_to(keys_of(*beyond), most_keys));
+  return beyond == nullptr || !beyond->explains ? "" : priors_text(*beyond);
+}
+
+std::string priors_taken_text(const Diagnosis& d) {
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  return beyond == nullptr || !beyond->taken || d.causes.empty() ? "" : priors_text(*beyond);
 }
 
 std::string wrong_priors_text(const Diagnosis& d) {
@@ -75,6 +83,21 @@ std::string wrong_priors_text(const Diagnosis& d) {
   return fmt::format("{}, and {} cannot tell which: either {} (probability {}: {}){}.", missing,
                      positions_at_hand(d), priors, decimal_text(d.probabilities.wrong_priors, 2),
                      nothing_left, words);
+}
+
+std::string other_priors_text(const remark::OtherPriors& r, Instrument instrument) {
+  std::vector<std::string> keys, effects;
+  for (const std::size_t i : r.parameters) keys.push_back(parameter_key(i));
+  for (const NamedEffect& e : r.effects)
+    effects.push_back(fmt::format("{} ({})", in_words(e.term, e.axis, instrument), e.label));
+  const bool several = keys.size() > 1, wrong = r.are == remark::OtherPriors::Are::wrong;
+  return fmt::format("{}, and {} missing",
+                     !wrong ? "all priors are right"
+                            : fmt::format("the prior{} of {} {} wrong", several ? "s" : "",
+                                          listed_up_to(keys, most_keys), several ? "are" : "is"),
+                     effects.empty()
+                         ? "something that no known effect explains is"
+                         : listed(effects, "and") + (effects.size() > 1 ? " are" : " is"));
 }
 
 std::string but_far_from_priors(const Diagnosis& d) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
+#include "analysis/report/diagnosis/instrument.hpp"
 #include "analysis/report/page/json.hpp"
 
 namespace drift::report {
@@ -18,6 +19,10 @@ std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 std::string priors_at_fault_text(const diagnosis::Diagnosis& diagnosis);
 /// The verdict's sentence where they are told, with the causes that it may be instead.
 std::string wrong_priors_text(const diagnosis::Diagnosis& diagnosis);
+/// "the prior of K3_x", where the causes are told with room in it; else empty.
+std::string priors_taken_text(const diagnosis::Diagnosis& diagnosis);
+/// "the prior of eta_x is wrong, and hang-off of the platform (hang_off.outer) is missing".
+std::string other_priors_text(const diagnosis::remark::OtherPriors& remark, Instrument instrument);
 
 /// ", but the fit takes K1_x, K1_y, K1_z up to 20.0 prior sigmas from their priors: ...", for a
 /// recording that is consistent otherwise; empty where no parameter lies too far from its prior.

@@ -123,11 +123,9 @@ Json probabilities_json(const Probabilities& p) {
       causes.push_back({{"term", c.term}, {"axis", text_or_null(c.axis)}, {"label", c.label}});
     named.push_back({{"causes", std::move(causes)}, {"probability", e.probability}});
   }
-  return {{"consistent", p.consistent},
-          {"noise_only", p.noise_only},
-          {"named", std::move(named)},
-          {"outside", p.outside},
-          {"wrong_priors", p.wrong_priors}};
+  return {{"consistent", p.consistent},     {"noise_only", p.noise_only},
+          {"named", std::move(named)},      {"outside", p.outside},
+          {"wrong_priors", p.wrong_priors}, {"other_priors", p.other_priors}};
 }
 
 Json fit_json(const Diagnosis& d) {

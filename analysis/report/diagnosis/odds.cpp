@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "core/base/number_text.hpp"
 
@@ -34,6 +35,8 @@ Section odds(const Diagnosis& d) {
   if (others > 0.0)
     add(fmt::format("another effect of the library, each below {}", least_shown), others);
   add("something that no term of the library describes", p.outside);
+  if (const auto* other = remark_in<remark::OtherPriors>(d))
+    add(other_priors_text(*other, instrument_of(d)), p.other_priors);
   return {"What the recording may be",
           {table, Paragraph{fmt::format(
                       "By the marginal likelihood of each and a prior that is the same for all "

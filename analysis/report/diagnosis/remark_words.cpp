@@ -137,6 +137,11 @@ struct Words {
            "axes and commands of the plan, and the priors";
   }
 
+  std::string operator()(const OtherPriors& r) const {
+    return fmt::format("Or else {} (probability {})", other_priors_text(r, instrument),
+                       decimal_text(r.probability, 2));
+  }
+
   std::string operator()(const OtherEquation& r) const {
     const std::string with = r.beside_cause ? ", the cause in the model" : "";
     if (!r.open())

@@ -92,6 +92,10 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
   if (const auto* noise = remark_in<remark::OrNoise>(d))
     return fmt::format("that nothing is missing has a probability of {}",
                        decimal_text(noise->probability, 2));
+  if (const auto* other = remark_in<remark::OtherPriors>(d))
+    return fmt::format("that {} has a probability of {}",
+                       other_priors_text(*other, instrument_of(d)),
+                       decimal_text(other->probability, 2));
   if (remark_in<remark::LambdaNotSettled>(d))
     return "its weight may still be the nominal one (3 sigma)";
   if (const auto* times = times_beside_cause(d))
@@ -105,14 +109,16 @@ std::string ambiguous_text(const Diagnosis& d) {
   const auto all = alternatives_of(d);
   if (all.empty())
     return fmt::format("{}, and {} cannot tell what.", missing, positions_at_hand(d));
+  const std::string priors =
+      priors_taken_text(d).empty() ? "" : fmt::format(" (with room in {})", priors_taken_text(d));
   if (all.size() == 1)
-    return fmt::format("{}; it may be {}, but {}.", missing, together(d, all.front()),
+    return fmt::format("{}; it may be {}{}, but {}.", missing, together(d, all.front()), priors,
                        not_confirmed_text(d, all.front().size() > 1));
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
     words.push_back(fmt::format("({}) {}", k + 1, together(d, all[k])));
-  return fmt::format("{}, and {} cannot tell which: either {}.{}", missing, positions_at_hand(d),
-                     fmt::join(words, ", or "), twins_text(d, all));
+  return fmt::format("{}, and {} cannot tell which{}: either {}.{}", missing, positions_at_hand(d),
+                     priors, fmt::join(words, ", or "), twins_text(d, all));
 }
 
 /// "shows as much with a chance of 0.2".

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/search/posterior.hpp"
+
+namespace drift::diagnosis {
+
+/// What is missing from the nominal model, with the priors that are the more probable: as declared,
+/// or with room for those that are wrong.
+struct Believed {
+  FilterSpec nominal;
+  bool wrong_priors = false;  ///< it has room for those
+  search::Search found;
+  search::Posterior posterior;
+  /// Priors that may be wrong where nothing else is (`explains`).
+  std::optional<remark::BeyondPrior> instead;
+  std::optional<remark::OtherPriors> other;  ///< the other way round, where it is credible
+};
+
+/// found: with the priors of the nominal model. fit: of that, under declared noise. Wrong priors
+/// are asked for where something stands out or the noise is not as declared; where neither is,
+/// parameters far from their priors are told as they are.
+Believed believed(const FilterSpec& nominal, const MeasuredTest& test, const BatchResult& fit,
+                  search::Search found, const search::SearchOptions& options);
+
+/// A search's candidates as what is said of them.
+std::vector<NamedEffect> named_effects(const search::Search& found,
+                                       const search::Explanation& choices);
+
+}  // namespace drift::diagnosis
