@@ -46,6 +46,7 @@ search::CauseParameter parameter_of(const search::Fitted& nominal, const search:
   }
   // What sets in before the test does so with it.
   if (spec.kind == ParamKind::moment) out.value = std::max(out.value, 0.0);
+  out.weighed = out.value;
   out.prior_sigmas = prior_sigmas(nominal.filter, param, out.value);
   return out;
 }

@@ -6,6 +6,7 @@
 #include "analysis/diagnosis/causes.hpp"
 #include "analysis/diagnosis/profile_interval.hpp"
 #include "analysis/equation/held_parameter.hpp"
+#include "core/stats/normal.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::diagnosis {
@@ -15,7 +16,8 @@ namespace {
 struct Profiled {
   Profile profile;
   const search::Refit* model = nullptr;
-  Prior prior;                              ///< that counts; without a sigma where none does
+  FilterSpec filter;  ///< of the refits: without the priors of settings that left their grids
+  Prior prior;        ///< that counts; without a sigma where none does
   std::vector<Profile::Point> points = {};  ///< losses counted from one place
 };
 
@@ -29,6 +31,18 @@ struct Hold {
 /// library's where a size is far beyond it.
 Prior counted_prior(const search::Refit& model, const search::CauseParameter& p) {
   return p.profiled ? fixed(0.0) : model.filter.believed(p.param);
+}
+
+/// Where the data took a setting beyond the library's grid the prior that stands for the distance
+/// of its points says nothing any more, neither of the setting nor of the size that goes with it.
+FilterSpec without_grid(const search::Search& found, const search::Refit& model) {
+  constexpr double nothing = 1e3;  // times the setting, as a sigma
+  FilterSpec filter = model.filter;
+  for (const std::size_t i : search::settings_beyond_grid(found.nominal.set, model)) {
+    const double value = model.after.fit.estimate.find(i)->value;
+    filter.priors[i] = normal(value, nothing * std::abs(value));
+  }
+  return filter;
 }
 
 /// A setting, such as a time constant or a moment, keeps its sign: what would lie beyond zero lies
@@ -80,7 +94,7 @@ std::vector<double> next_values(const Profile& p, double outward) {
 double loss_at(const Profiled& p, const MeasuredTest& test, double value) {
   const search::Fitted& after = p.model->after;
   const double off = p.prior.sigma() > 0.0 ? (value - p.prior.mean()) / p.prior.sigma() : 0.0;
-  return off * off - equation::fit_held(p.model->filter, test, after.fit, p.profile.param, value,
+  return off * off - equation::fit_held(p.filter, test, after.fit, p.profile.param, value,
                                         after.problem.weight, after.noise.model)
                          .log2;
 }
@@ -122,6 +136,7 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
                       .value = p.value,
                       .sigma = p.sigma},
                      &model,
+                     without_grid(found, model),
                      counted_prior(model, p)});
     }
   take(all, holds, test);
@@ -153,6 +168,9 @@ void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile
         // Noise that drives the platform is not in the fit, and is in the refits: they are right.
         if (!(p.value < p.low_95) && !(p.value > p.high_95)) continue;
         p.value = profile.top;
+        // Nor is the sigma of a fit elsewhere that of this value.
+        const double below = p.value - p.low_95, above = p.high_95 - p.value;
+        p.sigma = std::fmax(below, above) / stats::half_width_95;
         p.prior_sigmas = prior_sigmas(nominal, p.param, p.value);
       }
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/physics/closure.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::search {
@@ -36,8 +37,16 @@ struct CauseParameter {
   /// Where the profile is most probable; NaN without one.
   double top = std::numeric_limits<double>::quiet_NaN();
   bool less_mean = false;  ///< less the mean of the three axes, which the test does not see
+  /// With which its cause was weighed, on the library's grid; the profile may say another.
+  double weighed = std::numeric_limits<double>::quiet_NaN();
 
-  /// The 95 % interval: by refits where there is one, else by the sigma.
+  /// The 95 % interval: by refits where there is one, else by the sigma. Where refits found one end
+  /// alone the other is not known (NaN); that of lambda, between two equations, is taken by the
+  /// sigma.
+  bool half_open() const {
+    return param != closure_param && std::isfinite(low_95) != std::isfinite(high_95);
+  }
+  bool as_refitted() const { return by_refits() || half_open(); }
   bool by_refits() const { return std::isfinite(low_95) && std::isfinite(high_95); }
   /// Whether value and sigma say as much as the ends that refits found.
   bool sigma_says_it() const {
@@ -46,11 +55,12 @@ struct CauseParameter {
   }
   /// The value to be told: the most probable one where refits say more than the sigma.
   double told() const {
-    const bool within = top >= low_95 && top <= high_95;
+    const bool within =
+        half_open() ? !(top < low_95) && !(top > high_95) : top >= low_95 && top <= high_95;
     return within && !sigma_says_it() ? top : value;
   }
-  double low() const { return by_refits() ? low_95 : value - stats::half_width_95 * sigma; }
-  double high() const { return by_refits() ? high_95 : value + stats::half_width_95 * sigma; }
+  double low() const { return as_refitted() ? low_95 : value - stats::half_width_95 * sigma; }
+  double high() const { return as_refitted() ? high_95 : value + stats::half_width_95 * sigma; }
 };
 
 struct Confusable {

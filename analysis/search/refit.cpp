@@ -108,28 +108,6 @@ std::optional<Room> with_room_for_sizes(const inference::CandidateSet& set, cons
   return room;
 }
 
-/// Time constants of the causes, as a fit has them, that lie beyond the ends of the grids on which
-/// they were looked for (moments have none). None beside lambda, which is all but held.
-std::vector<std::size_t> settings_beyond_grid(const inference::CandidateSet& set, const Refit& r) {
-  std::vector<std::size_t> beyond;
-  for (const Choice& choice : r.choices) {
-    const inference::Candidate& c = set.candidates[choice.candidate];
-    if (c.term == closure_term) return {};
-    for (const auto& [param, grid_point] : c.variants[choice.variant].settings) {
-      const ParameterEstimate* p = r.after.fit.estimate.find(param);
-      if (TermLibrary::specs[param].kind != ParamKind::nonlinear || !p ||
-          p->value * grid_point <= 0.0)
-        continue;
-      const auto setting_of = [i = param](const inference::Variant& v) {
-        return std::ranges::find(v.settings, i, &std::pair<std::size_t, double>::first)->second;
-      };
-      const auto [least, most] = std::ranges::minmax(c.variants, {}, setting_of);
-      if (p->value < setting_of(least) || p->value > setting_of(most)) beyond.push_back(param);
-    }
-  }
-  return beyond;
-}
-
 /// A fit's filter with these settings believed where the fit has them, give or take as much as they
 /// are themselves.
 FilterSpec with_room_for(const std::vector<std::size_t>& settings, const Refit& r) {
@@ -230,6 +208,26 @@ bool better(const Refit& a, const Refit& b) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> settings_beyond_grid(const inference::CandidateSet& set, const Refit& r) {
+  std::vector<std::size_t> beyond;
+  for (const Choice& choice : r.choices) {
+    const inference::Candidate& c = set.candidates[choice.candidate];
+    if (c.term == closure_term) return {};
+    for (const auto& [param, grid_point] : c.variants[choice.variant].settings) {
+      const ParameterEstimate* p = r.after.fit.estimate.find(param);
+      if (TermLibrary::specs[param].kind != ParamKind::nonlinear || !p ||
+          p->value * grid_point <= 0.0)
+        continue;
+      const auto setting_of = [i = param](const inference::Variant& v) {
+        return std::ranges::find(v.settings, i, &std::pair<std::size_t, double>::first)->second;
+      };
+      const auto [least, most] = std::ranges::minmax(c.variants, {}, setting_of);
+      if (p->value < setting_of(least) || p->value > setting_of(most)) beyond.push_back(param);
+    }
+  }
+  return beyond;
+}
 
 NoiseKinds noise_beside(const Fitted& nominal) {
   return nominal.noise.driven ? NoiseKinds::driving_too : NoiseKinds::white;

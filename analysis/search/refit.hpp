@@ -35,6 +35,10 @@ NoiseKinds noise_beside(const Fitted& nominal);
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
 
+/// Time constants of the causes, as a fit has them, that lie beyond the ends of the grids on which
+/// they were looked for (moments have none). None beside lambda, which is all but held.
+std::vector<std::size_t> settings_beyond_grid(const inference::CandidateSet& set, const Refit& r);
+
 /// A setting that a fit took beyond the library's grid is held back by its prior, which stands for
 /// the distance of grid points: the fit is made again with one as wide as the setting itself. Where
 /// the first one lies outside the 95 % interval of that, what the test says of it is stated, and of

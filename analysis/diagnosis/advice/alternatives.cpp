@@ -13,7 +13,12 @@
 namespace drift::diagnosis {
 namespace {
 
+/// Of settings of which one end alone is known, as they were weighed: at the top of the profile,
+/// far beyond the library's grid, one effect may be another's twin that it is not on the grid.
 Alternative alternative(std::vector<search::Cause> causes, std::string asked = {}) {
+  for (search::Cause& cause : causes)
+    for (search::CauseParameter& p : cause.parameters)
+      if (p.half_open() && std::isfinite(p.weighed)) p.value = p.weighed;
   return {Alternative::Kind::causes, std::move(causes), {}, std::move(asked)};
 }
 
