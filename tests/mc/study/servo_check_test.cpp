@@ -32,7 +32,7 @@ TEST(ServoCheck, AnUnstableLoopIsRefusedWithItsGrowth) {
   for (const char* table : {"lead = \"0.0021 s\"", "lead = \"0 s\"", "loop_gain = \"1e9 N*m/rad\"",
                             "motor_coupling = [[-1, 0, 0], [0, 1, 0], [0, 0, 1]]"})
     EXPECT_TRUE(says(with(table), "'truth.servo' makes an unstable loop")) << table;
-  EXPECT_TRUE(says(with("lead = \"0 s\""), "by a factor e every 0.246 s, swinging at 9.96 Hz"));
+  EXPECT_TRUE(says(with("lead = \"0 s\""), ", swinging at 9.96 Hz (expected"));
   // Aligned gyros do not turn one axis into the other: it settles, though in minutes.
   mc::Overrides aligned = servo;
   aligned.emplace_back("truth.terms", "[\"fixed_drift\"]");
