@@ -10,9 +10,10 @@
 namespace drift {
 namespace {
 
-constexpr int n = ServoState::size;
+using StateMatrix = Eigen::Matrix<double, ServoState::size, ServoState::size>;
 
-Eigen::Matrix<double, n, n> jacobian_at_rest(const ServoOptions& servo) {
+StateMatrix jacobian_at_rest(const ServoOptions& servo) {
+  constexpr int n = ServoState::size;
   using D = Dual<15>;  // as the integrator has it, compiled once
   const DriftModel model{Coupling::servo, {}, {}};
   const Vec3 nothing = Vec3::Zero();
@@ -21,7 +22,7 @@ Eigen::Matrix<double, n, n> jacobian_at_rest(const ServoOptions& servo) {
   std::array<D, n> x, x_dot;
   for (int i = 0; i < n; ++i) x[i] = D::variable(0.0, i);
   servo_derivative(servo, model, in, theta.data(), x.data(), x_dot.data());
-  Eigen::Matrix<double, n, n> J;
+  StateMatrix J;
   for (int i = 0; i < n; ++i) J.row(i) = x_dot[i].d.head<n>().matrix().transpose();
   return J;
 }
@@ -39,7 +40,7 @@ ServoModes servo_modes(const ServoOptions& servo, double turned) {
     const double a = gain.real(), b = std::abs(gain.imag()) + std::abs(gain) * turned;
     alone.motor_coupling << a, -b, 0.0, b, a, 0.0, 0.0, 0.0, 1.0;
     const Eigen::MatrixXd A = jacobian_at_rest(alone)(pair, pair);
-    const double rounding = n * std::numeric_limits<double>::epsilon() * A.norm();
+    const double rounding = ServoState::size * std::numeric_limits<double>::epsilon() * A.norm();
     const Eigen::VectorXcd modes = A.eigenvalues();
     for (const std::complex<double>& mode : modes)
       if (mode.real() > all.slowest.real()) all = {mode, rounding};

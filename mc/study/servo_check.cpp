@@ -25,7 +25,7 @@ double turn_of_gyros(const TruthSpec& truth) {
   return std::sqrt(squares / 2.0);
 }
 
-std::string swing(const std::complex<double>& mode) {
+std::string swinging_at(const std::complex<double>& mode) {
   if (mode.imag() == 0.0) return "";
   return fmt::format(", swinging at {:.3g} Hz", std::abs(mode.imag()) / (2.0 * std::numbers::pi));
 }
@@ -55,7 +55,7 @@ void check_servo(const config::Node& root, const Study& study, config::Report& r
                       "by as much as the misalignments of [truth], too). Make lead longer against "
                       "lag and float_inertia / float_damping, lower loop_gain, or let "
                       "motor_coupling be nearer to the identity",
-                      modes.time(), swing(modes.slowest)));
+                      modes.time(), swinging_at(modes.slowest)));
 }
 
 std::string slow_servo_text(const Study& study) {
@@ -69,8 +69,8 @@ std::string slow_servo_text(const Study& study) {
   const std::string settles =
       std::isfinite(modes.time())
           ? fmt::format("settles by a factor e in {:.3g} s{}, longer than", modes.time(),
-                        swing(modes.slowest))
-          : fmt::format("does not settle{}, let alone within", swing(modes.slowest));
+                        swinging_at(modes.slowest))
+          : fmt::format("does not settle{}, let alone within", swinging_at(modes.slowest));
   return fmt::format(
       "note: [truth.servo]: the loop {} the shortest sample of the plan ({:.6g} s): what it does "
       "on the way is in the rows, and in no filter. A higher loop_gain settles sooner\n",
