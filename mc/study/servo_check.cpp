@@ -73,7 +73,8 @@ std::string slow_servo_text(const Study& study) {
           : fmt::format("does not settle{}, let alone within", swinging_at(modes.slowest));
   return fmt::format(
       "note: [truth.servo]: the loop {} the shortest sample of the plan ({:.6g} s): what it does "
-      "on the way is in the rows, and in no filter. A higher loop_gain settles sooner\n",
+      "on the way is in the rows, and in no filter. A longer lead, or a higher loop_gain, settles "
+      "sooner\n",
       settles, sample);
 }
 
