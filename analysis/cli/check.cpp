@@ -8,6 +8,7 @@
 #include "core/plan/case_heading.hpp"
 #include "core/plan/plan_memory.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
+#include "mc/study/servo_check.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 
 namespace drift::cli {
@@ -46,6 +47,7 @@ ExitCode check(const StudyArguments& arguments) {
         "K1, in ppm, is off by as many ppm as gravity is there\n",
         *gravity);
   say("{}", report::truth_memory_text(study, 0));
+  say("{}", mc::slow_servo_text(study));
   say("{}", still_to_check_text(study));
   return ExitCode::ok;
 }

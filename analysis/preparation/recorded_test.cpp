@@ -49,6 +49,9 @@ Timeline joined(std::vector<Timeline> timelines) {
     all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
     all.chains += next.chains;
     all.carried &= next.carried;
+    all.loop_told = all.loop_told && next.loop_told;
+    all.without_loop.insert(all.without_loop.end(), next.without_loop.begin(),
+                            next.without_loop.end());
   }
   return all;
 }

@@ -34,10 +34,10 @@ enum class Subsystem {
 ///   start(PathStep, p, m)    what they are when a test begins; the step has no length
 ///   advance(PathStep, p, m)  their exact change over a step of the nominal path
 /// that are handed to the hooks after the parameters. Where they may change within a step, and act
-/// on the rates, it declares
+/// on the rates or on what the accelerometers read, it declares
 ///   mean(PathStep, p, m, mean)  their mean over the step that begins with m
-/// and steps integrate them exactly (MemoryPath). Memory depends on at most one parameter of
-/// the term, number `memory_parameter`.
+/// and steps integrate them, and rows average them, as they are (MemoryPath). Memory depends on at
+/// most one parameter of the term, number `memory_parameter`.
 ///
 /// A term that follows the temperature in ways which a thermostat leaves nothing of may declare
 /// `wants_swing`: a diagnosis looks for it where the temperature has moved.

@@ -81,6 +81,8 @@ struct Timeline {
   CovariateSet carried = 0;  ///< covariates that the intervals have
   std::vector<JoinedRecording> recordings;  ///< in order, of several; empty of one
   Covariates mean;                          ///< what numbers deviate from; zero for all others
+  bool loop_told = false;  ///< Interval::loop is what a loop removed: simulated so, or recorded
+  std::vector<std::string> without_loop;  ///< recordings that do not tell what it removed
 
   bool carries(const CovariateSpec& c) const { return (carried & c.set()) != 0; }
   /// Whether it carries what a term, or a model, wants to see.

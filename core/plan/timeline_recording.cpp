@@ -47,6 +47,7 @@ class Reader {
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
     for (std::size_t row = 0; row < rec_.rows(); ++row) add(row);
     if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    tell_loop();
     place_nodes(timeline_, chain_start_);
     take_covariates();
     for (const RowMistake& m : attitude_mistakes(rec_, plan_, timeline_)) complain(m.row, m.text);
@@ -136,9 +137,26 @@ class Reader {
                "column out");
     heading_now_ = i.heading1;
     if (!before && !passage.caged) chain_start_.back() = begun_on_the_way(row, i, position.R_lp);
-    for (int a = 0; a < 6; ++a)
-      if (loop_[a] && std::isfinite(loop_[a]->values[row])) i.loop[a] = loop_[a]->values[row];
+    take_loop(row, i);
     timeline_.intervals.push_back(i);
+  }
+
+  bool has_loop() const {
+    return std::ranges::all_of(loop_, [](const Channel* c) { return c != nullptr; });
+  }
+  void take_loop(std::size_t row, Interval& i) {
+    if (!has_loop()) return;
+    for (int a = 0; a < 6; ++a) i.loop[a] = loop_[a]->values[row];
+    if (!i.loop.allFinite())
+      complain(row,
+               "loop_eta_x .. loop_xi_z: not all are numbers (expected numbers in every row: the "
+               "loop removes them). Write 0 where nothing was removed, or leave the columns out");
+  }
+  /// Zero would be a loop that removes nothing, which nobody has said.
+  void tell_loop() {
+    timeline_.loop_told = has_loop();
+    if (!has_loop())
+      timeline_.without_loop = {rec_.source.empty() ? std::string("the recording") : rec_.source};
   }
 
   /// Where a platform was that had been slewed before the recording began: nobody knows what drift

@@ -52,9 +52,7 @@ Recording make_recording(const Timeline& timeline, const Measurements& measured,
   for (int a = 0; a < 3; ++a)
     add(cmd_names[a], unit::deg_per_h, [&](std::size_t i) { return interval(i).omega_cmd_p[a]; });
   add("case_heading", unit::deg, [&](std::size_t i) { return interval(i).heading1; });
-  bool looped = false;
-  for (const Interval& i : timeline.intervals) looped = looped || !i.loop.isZero(0.0);
-  for (int a = 0; looped && a < 6; ++a)
+  for (int a = 0; timeline.loop_told && a < 6; ++a)
     add(loop_names[a], unit::arcsec, [&](std::size_t i) { return interval(i).loop[a]; });
   for (const CovariateSpec& c : known_covariates)
     for (std::size_t k = 0; timeline.carries(c) && k < c.components(); ++k)

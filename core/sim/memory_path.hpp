@@ -34,7 +34,9 @@ class MemoryPath {
   /// Of the interval: number 2 k is the memory at its node k, number 2 k + 1 half way to the next.
   /// Null where the model has none. Of a term that tells means, nodes but the even ones after the
   /// first and what is half way are what makes the rules of a step (Simpson's) and of two
-  /// (propagate_sensitivity) exact for the memory, however fast it changes within them.
+  /// (propagate_sensitivity) exact for the memory, however fast it changes within them. So are
+  /// means over a row by Simpson's rule; Boole's, of rows of many steps, is off by up to a
+  /// thirtieth of a change within two of them.
   const MemoryPoint* points() const { return active_ ? points_.data() : nullptr; }
   /// The memory itself, likewise numbered.
   const MemoryPoint* itself() const { return exact_.empty() ? points() : exact_.data(); }

@@ -199,6 +199,7 @@ void set_loop(Timeline& timeline, const TruthSpec& truth) {
   if (truth.coupling != Coupling::compensated || truth.loop != LoopEstimate::given) return;
   constexpr auto eta = TermLibrary::index("eta_x");
   for (Interval& i : timeline.intervals) i.loop = truth.theta_loop.segment<6>(eta);
+  timeline.loop_told = true;
 }
 
 }  // namespace drift

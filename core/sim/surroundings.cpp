@@ -1,6 +1,7 @@
 #include "core/sim/surroundings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/check.hpp"
 #include "core/physics/own/own_terms.hpp"
@@ -29,6 +30,18 @@ std::string lacking_in_words(const Timeline& timeline, CovariateSet wanted) {
   return out;
 }
 
+/// What a compensated loop removed, of recordings that do not tell it; empty: known, or not asked
+/// for.
+std::string missing_loop(const DriftModel& model, const Timeline& timeline) {
+  if (model.coupling != Coupling::compensated || timeline.without_loop.empty()) return "";
+  return fmt::format(
+      "coupling \"compensated\" needs the misalignments that the loop removed, which are not known "
+      "in {} (expected columns loop_eta_x, loop_eta_y, loop_eta_z, loop_xi_x, loop_xi_y, loop_xi_z "
+      "[arcsec]; [truth.loop] is of simulations). Add them, 0 where it removed nothing, or choose "
+      "another coupling",
+      fmt::join(timeline.without_loop, ", "));
+}
+
 }  // namespace
 
 std::string columns_in_words(const CovariateSpec& c) {
@@ -40,6 +53,8 @@ std::string columns_in_words(const CovariateSpec& c) {
 
 std::vector<std::string> missing_covariates(const DriftModel& model, const Timeline& timeline) {
   std::vector<std::string> messages;
+  if (std::string loop = missing_loop(model, timeline); !loop.empty())
+    messages.push_back(std::move(loop));
   if (timeline.carries(TermLibrary::needs(model.terms))) return messages;
   for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
     const TermInfo& term = TermLibrary::terms[t];

@@ -43,7 +43,7 @@ void fill_surroundings(const Needs& needs, const Moment& now, const Mat3T<S>& R_
 /// The columns of a covariate: "temperature [degC]", "field_n, field_w, field_u [gauss]".
 std::string columns_in_words(const CovariateSpec& c);
 
-/// What each term of the model needs that the timeline does not carry, in words.
+/// What the coupling and each term of the model need that the timeline does not carry, in words.
 std::vector<std::string> missing_covariates(const DriftModel& model, const Timeline& timeline);
 
 /// InputError (recording) if there is any.

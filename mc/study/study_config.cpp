@@ -18,6 +18,7 @@
 #include "mc/study/blind_config.hpp"
 #include "mc/study/declared_keys.hpp"
 #include "mc/study/published_config.hpp"
+#include "mc/study/servo_check.hpp"
 #include "mc/study/study.hpp"
 #include "mc/study/sweep_config.hpp"
 
@@ -94,6 +95,12 @@ bool sweeps_the_plan(const std::vector<SweepAxis>& sweep) {
   return std::ranges::any_of(sweep, [](const SweepAxis& axis) {
     return axis.key.starts_with("plan") || axis.key.starts_with("site");
   });
+}
+
+/// Whether a sweep changes what decides how the loop of [truth] settles.
+bool sweeps_the_loop(const std::vector<SweepAxis>& sweep) {
+  return std::ranges::any_of(sweep,
+                             [](const SweepAxis& axis) { return axis.key.starts_with("truth"); });
 }
 
 /// Every value of the sweep is tried in its place, so that no point of a study fails for its file.
@@ -200,6 +207,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   // Of a sweep over the plan the points are read one by one; the file's own may be none of them.
   if (report.errors() == 0 && !sweeps_the_plan(study.sweep))
     check_headings(plan, study.site, report);
+  if (report.errors() == 0 && !sweeps_the_loop(study.sweep)) check_servo(root, study, report);
   return study;
 }
 

@@ -6,7 +6,8 @@ namespace drift::terms {
 
 /// Friction of the gimbal bearings (Dahl, exponent 1) hangs the platform off against the motion of
 /// each gimbal; after a reversal it takes a turn of about F_turn to change sides. Its memory is the
-/// friction of each gimbal over its Coulomb friction, driven by the nominal gimbal motion.
+/// friction of each gimbal over its Coulomb friction, driven by the nominal gimbal motion. A
+/// reversal is over in seconds and accelerometers are read for minutes, hence `mean`.
 struct Stiction : GimbalFriction {
   static constexpr std::string_view key = "stiction";
   static constexpr std::string_view title = "friction of the gimbals";
@@ -20,6 +21,10 @@ struct Stiction : GimbalFriction {
            profiled<"F_turn">(ParamKind::nonlinear, unit::arcsec, 40.0, {10.0, 40.0, 150.0},
                               "turn over which friction builds up"));
 
+  template <class S>
+  static void mean(const PathStep& along, const S* p, const S* T, S* mean) {
+    means(along, p, T, mean);
+  }
   template <class S>
   static void attitude_offset(const Inputs<S>& in, const S* p, const S* T, Vec3T<S>& delta_p) {
     take_off(in, p, T, delta_p);

@@ -60,6 +60,26 @@ TEST(SeveralRecordings, ThatOneOfThemLacksWhatATermNeedsIsSaidOfThatOne) {
             std::string::npos);
 }
 
+TEST(SeveralRecordings, ACompensatedFilterIsRefusedOneThatDoesNotTellWhatTheLoopRemoved) {
+  const ScratchFolder folder;
+  const std::string filter = "[[filter]]\nname = \"loop\"\ncoupling = \"compensated\"\n";
+  const std::string study = folder.write("s.toml", short_study + filter),
+                    with = folder.file("with.csv"), without = folder.file("without.csv");
+  // No [truth.loop]: the loop removes nothing, and the recording says so.
+  ASSERT_EQ(
+      driftscope("simulate " + study + " -o " + with + " --set truth.coupling=compensated").code,
+      0);
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + without + " --run 1").code, 0);
+  EXPECT_EQ(driftscope("identify " + study + " " + with + " --progress none").code, 0);
+  for (const std::string& files : {without, with + " " + without}) {
+    const Answer a = driftscope("identify " + study + " " + files + " --progress none");
+    EXPECT_EQ(a.code, 4) << a.err;
+    EXPECT_NE(a.err.find("not known in " + without + " (expected columns loop_eta_x"),
+              std::string::npos)
+        << a.err;
+  }
+}
+
 TEST(TracedRun, SaysWhoseCourseItIs) {
   const ScratchFolder folder;
   const std::string file = folder.write("s.toml", short_study);

@@ -1,6 +1,7 @@
 // What several recordings carry together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -72,6 +73,63 @@ TEST(JoinedCovariates, ThatOneRecordingLacksAreToldOfThatOne) {
   ASSERT_EQ(all.size(), 2u);
   for (const std::string& text : all)
     EXPECT_NE(text.find(", which is not known (expected a column"), std::string::npos) << text;
+}
+
+/// A loop that removed 40 arcsec of eta_x, or nothing.
+Recording recorded_in_a_loop(const std::string& file, double eta_x = 40.0 * test::arcsec) {
+  mc::Study s = study();
+  s.truth.coupling = Coupling::compensated;
+  s.truth.theta_loop[test::param("eta_x")] = eta_x;
+  Timeline timeline = lay_out(s.plan, s.site);
+  set_loop(timeline, s.truth);
+  const Simulation sim = Simulator(s.truth, s.readout).run(timeline, 1, 0);
+  Recording r = make_recording(timeline, sim.measured, s.readout);
+  r.source = file;
+  return r;
+}
+
+TEST(RecordedLoop, IsAskedForByACompensatedFilterAlone) {
+  DriftModel compensated, eq5;
+  compensated.coupling = Coupling::compensated;
+  eq5.coupling = Coupling::eq5;
+  const Recording told = recorded_in_a_loop("told.csv");
+  const Timeline known = recorded_test(study(), {told}).timeline;
+  EXPECT_NEAR(known.intervals.back().loop[0], 40.0 * test::arcsec, 1e-6 * test::arcsec);
+  EXPECT_TRUE(missing_covariates(compensated, known).empty());
+  // A loop that removed nothing is told, too.
+  const Recording nothing = recorded_in_a_loop("nothing.csv", 0.0);
+  EXPECT_TRUE(
+      missing_covariates(compensated, recorded_test(study(), {told, nothing}).timeline).empty());
+  Recording some = told, none = recorded();
+  some.source = "some.csv", none.source = "none.csv";
+  std::erase_if(some.channels, [](const Channel& c) { return c.name == "loop_xi_z"; });
+  for (const auto& [recordings, files] :
+       {std::pair{std::vector{none}, "in none.csv (expected columns loop_eta_x"},
+        std::pair{std::vector{told, some, none}, "in some.csv, none.csv (expected columns"}}) {
+    const Timeline unknown = recorded_test(study(), recordings).timeline;
+    EXPECT_TRUE(missing_covariates(eq5, unknown).empty());
+    const auto wrong = missing_covariates(compensated, unknown);
+    ASSERT_EQ(wrong.size(), 1u);
+    EXPECT_NE(wrong[0].find(files), std::string::npos) << wrong[0];
+    EXPECT_THROW(require_covariates(compensated, unknown), InputError);
+  }
+  // The plan of a study is no recording: what its loop removes [truth] says.
+  EXPECT_TRUE(missing_covariates(compensated, lay_out(study().plan, study().site)).empty());
+}
+
+TEST(RecordedLoop, HasANumberInEveryRow) {
+  Recording r = recorded_in_a_loop("gap.csv");
+  const auto eta = std::ranges::find(r.channels, "loop_eta_x", &Channel::name);
+  ASSERT_NE(eta, r.channels.end());
+  eta->values[7] = std::nan("");
+  try {
+    recorded_test(study(), {r});
+    FAIL() << "a loop of a row that nobody knows";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.messages().size(), 1u);
+    EXPECT_NE(error.messages()[0].find("gap.csv:8: loop_eta_x"), std::string::npos)
+        << error.messages()[0];
+  }
 }
 
 TEST(JoinedCovariates, DeviateFromOneMean) {

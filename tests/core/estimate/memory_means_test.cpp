@@ -3,6 +3,7 @@
 
 #include "core/estimate/linearize.hpp"
 #include "core/estimate/stretch_jacobians.hpp"
+#include "core/sim/instruments.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::memory_means_test {
@@ -13,12 +14,13 @@ using namespace drift::test;
 constexpr double row = 180.0, P = 0.03 * detail::deg / 3600.0;
 constexpr double turn = 40.0 * detail::deg / 3600.0;
 
-/// A test at a pole with rows of three minutes, x up: with no command the case turns about the
-/// platform's x with the Earth, which is a turn of the middle gimbal alone; twice the Earth's rate
+/// A test with rows of three minutes, the platform's x along the Earth's axis: with no command the
+/// case turns about it with the Earth, which is a turn of one gimbal alone; twice the Earth's rate
 /// turns it the other way as fast.
-Timeline rows_at_a_pole(std::initializer_list<double> commands_in_earth_rates) {
+Timeline rows_about_the_axis(double latitude, const char* axes,
+                             std::initializer_list<double> commands_in_earth_rates) {
   Timeline timeline;
-  timeline.site = Site{90.0 * detail::deg};
+  timeline.site = Site{latitude};
   timeline.chains = timeline.positions = 1;
   double t = 0.0;
   for (const double command : commands_in_earth_rates) {
@@ -30,8 +32,12 @@ Timeline rows_at_a_pole(std::initializer_list<double> commands_in_earth_rates) {
     timeline.intervals.push_back(i);
   }
   std::string why;
-  place_nodes(timeline, {parse_axes("x=U y=N z=W", why).value()});
+  place_nodes(timeline, {parse_axes(axes, why).value()});
   return timeline;
+}
+/// At a pole, x up: the middle gimbal turns.
+Timeline rows_at_a_pole(std::initializer_list<double> commands_in_earth_rates) {
+  return rows_about_the_axis(90.0 * detail::deg, "x=U y=N z=W", commands_in_earth_rates);
 }
 
 struct Restrained {
@@ -111,6 +117,57 @@ TEST(MemoryMeans, AReversalOfSecondsIsIntegratedExactlyInStepsOfMinutes) {
       EXPECT_NEAR(G.col(m.column("P_turn")).norm(), std::abs(sigma_turn * P * now.integral.d[0]),
                   1e-9 * sigma_turn * P * row / turn);
     }
+  }
+}
+
+TEST(MemoryMeans, AccelerometersReadAHangOffThatChangesSidesWithinARowAsItWas) {
+  // At the equator, x north: the outer gimbal turns, and the platform hangs off about it.
+  const Timeline timeline = rows_about_the_axis(0.0, "x=N y=W z=U", {0.0, 1.0, 2.0, 2.0, 0.0});
+  constexpr double F = 10.0 * arcsec;
+  FilterSpec filter;
+  filter.coupling = Coupling::eq6;
+  filter.active = TermLibrary::completed(only({"F_outer", "F_turn"}));
+  Theta theta = Theta::Zero();
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
+    filter.priors[i] = TermLibrary::specs[i].prior_si();
+    if (filter.active[i]) theta[i] = filter.priors[i].mean();
+  }
+  theta[param("F_turn")] = turn;
+  Theta hung = theta;
+  hung[param("F_outer")] = F;
+  const DriftModel model = filter.model();
+  const std::vector<Vec3> phi(timeline.nodes.size(), Vec3::Zero());  // no gyro integrates it
+  MemoryRecord memory(timeline, model);
+  memory.trace(hung.data());
+  Linearizer linearizer(model, make_layout(filter), {});
+  linearizer.set_theta(hung);
+  const double x = detail::earth_rate * row;
+  const std::array turned{-x, 0.0, x, x, -x};
+  Dual<1> T(0.0);
+  IntervalSensitivity sensitivity;
+  MeanOutput mean;
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+    SCOPED_TRACE(i);
+    const Interval& interval = timeline.intervals[i];
+    const auto points = [&](std::size_t k) { return memory.points(interval)[2 * k].value.data(); };
+    const auto read = [&](const Theta& with) {
+      return Instruments{&timeline, &model, with.data()}.accelerometers(
+          interval, &phi[interval.first_node], points);
+    };
+    Row now{row * T, T};
+    if (turned[i] != 0.0) now = integral_of_row(T, turned[i]);
+    T = now.end;
+    const Vec3 simulated = read(hung);
+    // The row sees gravity turn by 1.3 % of its length at most, beside what changes in seconds.
+    EXPECT_NEAR((simulated - read(theta)).norm(), F * std::abs(now.integral.v) / row, 0.005 * F);
+    linearize_interval(interval, timeline, Mat3::Zero(), &phi[interval.first_node],
+                       memory.points(interval), linearizer, sensitivity);
+    mean_output(interval, sensitivity, mean);
+    EXPECT_LT((mean.acc - simulated).norm(), 1e-12);
+    // What the gimbals show at the end of the row is of the friction there.
+    const std::size_t last = interval.node_count() - 1;
+    const int outer = TermLibrary::terms[TermLibrary::find_term("stiction").value()].first_memory;
+    EXPECT_NEAR(points(last)[outer], T.v, 1e-9);
   }
 }
 
