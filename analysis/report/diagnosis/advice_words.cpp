@@ -146,8 +146,9 @@ std::string helped_text(const Advice& a, const std::string& positions) {
   const std::string names = listed_up_to(a.names, most_shown);
   const std::string state =
       a.sizes == Sizes::as_found
-          ? fmt::format("Of {} pairs, {} are less than {:g} sigma apart on this plan", a.asked,
-                        ways.size(), a.wanted)
+          ? fmt::format(
+                "Of {} pairs, {} are less than {:g} sigma apart on this plan and more on another",
+                a.asked, ways.size(), a.wanted)
       : !names.empty()
           ? fmt::format(
                 "{}, {}: of {} pairs with them, {} are less than {:g} sigma apart on this plan and "
@@ -243,6 +244,19 @@ std::string advice_in_brief(const Advice& a) {
   constexpr std::size_t listed = 2;  // more have no room in four lines
   if (a.kind != Advice::Kind::add || a.plan.size() <= listed) return advice_text(a);
   return helped_text(a, fmt::format("{} positions, which --full lists", a.plan.size()));
+}
+
+std::string advice_in_brief(const std::vector<Advice>& all) {
+  std::string text;
+  for (const Advice& a : all)
+    if (text.empty())
+      text = advice_in_brief(a);
+    else if (a.kind == Advice::Kind::twins && a.sizes != Sizes::one_prior_sigma)
+      text += fmt::format(" No position separates {}: another measurement is needed.",
+                          pairs_in_words(a, a.pairs, " and "));
+    else if (a.kind == Advice::Kind::hidden && a.sizes == Sizes::as_found)
+      text += " " + hidden_text(a);
+  return text;
 }
 
 std::vector<std::string> advised_labels(const Advice& a) {
