@@ -17,6 +17,8 @@
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/rows/quality_card.hpp"
+#include "core/recording/rows/row_remarks.hpp"
+#include "core/recording/rows/shared_rows.hpp"
 
 namespace drift::cli {
 namespace {
@@ -152,6 +154,25 @@ bool same_readings(const Recording& a, const Recording& b) {
   return any;
 }
 
+/// What stands in two files would count twice.
+void refuse_copies(const Recording& earlier, const std::string& earlier_path,
+                   const Recording& later, const std::string& path) {
+  if (same_readings(earlier, later))
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("{}: has the same readings as {} (expected recordings of different tests: "
+                    "one and the same is no further evidence). Name one of them",
+                    path, earlier_path));
+  if (const auto shared = shared_rows(earlier, later))
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("{}: {} hold the readings of {}: {} (expected recordings of different tests: "
+                    "rows that stand in both are no further evidence). Name one of them, or cut "
+                    "these rows out of one",
+                    path, rows_in_words(later, shared->second, shared->count), earlier_path,
+                    rows_in_words(earlier, shared->first, shared->count)));
+}
+
 }  // namespace
 
 std::optional<std::string> assumed_gravity(const mc::Study& study) {
@@ -179,12 +200,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
     tell_other_latitude(study, recordings.back(), path);
     tell_other_gravity(study, recordings.back());
     for (std::size_t before = 0; before + 1 < recordings.size(); ++before)
-      if (same_readings(recordings[before], recordings.back()))
-        throw InputError(
-            ExitCode::usage,
-            fmt::format("{}: has the same readings as {} (expected recordings of different tests: "
-                        "one and the same is no further evidence). Name one of them",
-                        path, paths[before]));
+      refuse_copies(recordings[before], paths[before], recordings.back(), path);
     tell_remarks(card_of(study, recordings.back()));
   }
   return recordings;

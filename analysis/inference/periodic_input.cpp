@@ -38,11 +38,12 @@ std::vector<Place> places_of(const LinearProblem& rows) {
   return all;
 }
 
-/// When intervals end, from the beginning of the first [s].
+/// When intervals end, from the beginning of their recording [s]: how long after the one before it
+/// begins nobody knows.
 std::vector<double> ends_of(const MeasuredRows& rows) {
   std::vector<double> all;
   for (const IntervalDrive& d : rows.drives)
-    all.push_back(all.empty() ? d.length : all.back() + d.gap + d.length);
+    all.push_back(all.empty() || d.begins ? d.length : all.back() + d.gap + d.length);
   return all;
 }
 
@@ -52,7 +53,8 @@ class Instants {
  public:
   explicit Instants(const LinearProblem& rows) : rows_(rows), end_(ends_of(rows)) {}
 
-  double span() const { return end_.back(); }
+  /// Of the longest recording [s].
+  double span() const { return *std::ranges::max_element(end_); }
   /// Middles of the intervals that have a row [s].
   std::vector<double> read() const {
     std::vector<double> all;
@@ -144,7 +146,7 @@ double usual_distance(const std::vector<double>& t) {
   return stats::upper_median(std::move(all));
 }
 
-/// Frequencies, quarters of a cycle over the test apart.
+/// Frequencies, quarters of a cycle over the longest recording apart.
 struct Band {
   std::size_t first = 0, end = 0;
   double step = 0.0;  ///< [1/s]

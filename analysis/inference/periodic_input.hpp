@@ -13,7 +13,7 @@ struct PeriodicInput {
   Equation equation = Equation::rate;
   int axis = 0;
   double period_s = 0.0;
-  double cosine = 0.0, sine = 0.0;  ///< from the beginning of the first interval on; rad/s, g, rad
+  double cosine = 0.0, sine = 0.0;  ///< from the beginning of a recording on; rad/s, g, rad
   /// Projected score of sine and cosine, chi-square of 2 degrees where there is nothing.
   double T = 0.0;
   /// Independent tries that periods and equations are worth at this score: by Davies (1987,
@@ -32,11 +32,12 @@ struct PeriodicInput {
   double log_gain() const { return 0.5 * T - log_tries; }
 };
 
-/// Periods from half the test down to two samples (of sensors on a case, whose rows come in bursts,
-/// two rows on average), in every equation that is read: the platform's
-/// rate about each axis, each accelerometer and each resolver (a rounded readout excepted, whose
-/// rounding comes back by itself). Where lines stand out is seen by the spectrum of the innovations
-/// of each equation; how much the best of each is worth, by its projected score.
+/// Periods from half the test (of several recordings the longest, each by its own clock, as all
+/// that runs with time: in whatever order they are given) down to two samples (of sensors on a
+/// case, whose rows come in bursts, two rows on average), in every equation that is read: the
+/// platform's rate about each axis, each accelerometer and each resolver (a rounded readout
+/// excepted, whose rounding comes back by itself). Where lines stand out is seen by the spectrum of
+/// the innovations of each equation; how much the best of each is worth, by its projected score.
 PeriodicInput strongest_periodic_input(const LinearProblem& problem, const Projector& projector);
 
 /// What it makes of the rows, whitened, parameters projected out.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/planning/position_pool.hpp"
@@ -22,6 +23,7 @@ using diagnosis::Sizes;
 using inference::AdviceLimits;
 
 constexpr std::size_t most_shown = 8;
+constexpr std::size_t most_in_brief = 2;  // more have no room in four lines
 
 /// "magnetic_drift.y", "g2_drift (D_IS_x)": one parameter tells more than its term.
 std::string cause_text(const search::Cause& c) {
@@ -78,7 +80,7 @@ std::string pair_text(const Advice& a, const AdvisedPair& p, std::string_view be
 
 /// "a, b, c and 4 more"; each once, whichever way round.
 std::string pairs_in_words(const Advice& a, const std::vector<AdvisedPair>& pairs,
-                           std::string_view between) {
+                           std::string_view between, std::size_t most = most_shown) {
   std::vector<std::string> texts;
   std::set<std::pair<std::string, std::string>> said;
   for (const AdvisedPair& p : pairs) {
@@ -86,7 +88,7 @@ std::string pairs_in_words(const Advice& a, const std::vector<AdvisedPair>& pair
     if (labels.second < labels.first) std::swap(labels.first, labels.second);
     if (said.insert(std::move(labels)).second) texts.push_back(pair_text(a, p, between));
   }
-  return listed_up_to(texts, most_shown);
+  return listed_up_to(texts, most);
 }
 
 /// How large the effects are, "at one prior sigma"; empty: as found.
@@ -112,18 +114,26 @@ std::string plan_text(const Advice& a) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
-/// What a plan does for one pair.
+/// The same where there is room for a few lines.
+std::string plan_in_brief(const Advice& a) {
+  return a.plan.size() <= most_in_brief
+             ? plan_text(a)
+             : fmt::format("{} positions, which --full lists", a.plan.size());
+}
+
+/// What a plan does for one pair. beside: what is said with how it is now.
 std::string helped_pair(const Advice& a, const AdvisedPair& p, const std::string& positions,
-                        const std::string& verified) {
+                        const std::string& verified, std::string_view beside) {
   const std::string size = before_it(", ", size_text(a.sizes));
   return fmt::format(
-      "{} and {}{} are {:.1f} sigma apart on this plan. Add {}: then {:.1f} sigma{}{}.",
+      "{} and {}{} are {:.1f} sigma apart on this plan{}. Add {}: then {:.1f} sigma{}{}.",
       alternative_text(truth_of(a, p)), alternative_text(rival_of(a, p)),
-      size.empty() ? "" : size + ",", a.now_sigma, positions, a.expected_sigma, verified,
+      size.empty() ? "" : size + ",", a.now_sigma, beside, positions, a.expected_sigma, verified,
       a.expected_sigma < a.wanted ? ", which is not enough" : "");
 }
 
-std::string helped_text(const Advice& a, const std::string& positions) {
+std::string helped_text(const Advice& a, const std::string& positions,
+                        std::string_view beside = "") {
   const std::string verified = std::isfinite(a.verified_sigma)
                                    ? fmt::format(" (in a simulation: {:.1f})", a.verified_sigma)
                                    : "";
@@ -133,7 +143,7 @@ std::string helped_text(const Advice& a, const std::string& positions) {
           return w.pair.truth == p.pair.rival && w.pair.rival == p.pair.truth;
         }))
       ways.push_back(p);
-  if (ways.size() == 1) return helped_pair(a, ways.front(), positions, verified);
+  if (ways.size() == 1) return helped_pair(a, ways.front(), positions, verified, beside);
   std::vector<AdvisedPair> hardest = ways;
   std::stable_sort(hardest.begin(), hardest.end(),
                    [](const AdvisedPair& x, const AdvisedPair& y) { return x.now < y.now; });
@@ -146,8 +156,9 @@ std::string helped_text(const Advice& a, const std::string& positions) {
   const std::string names = listed_up_to(a.names, most_shown);
   const std::string state =
       a.sizes == Sizes::as_found
-          ? fmt::format("Of {} pairs, {} are less than {:g} sigma apart on this plan", a.asked,
-                        ways.size(), a.wanted)
+          ? fmt::format(
+                "Of {} pairs, {} are less than {:g} sigma apart on this plan and more on another",
+                a.asked, ways.size(), a.wanted)
       : !names.empty()
           ? fmt::format(
                 "{}, {}: of {} pairs with them, {} are less than {:g} sigma apart on this plan and "
@@ -157,13 +168,15 @@ std::string helped_text(const Advice& a, const std::string& positions) {
                 "Of {} effects {}, {} show with less than {:g} sigma on this plan and with more "
                 "on another",
                 a.asked, size_text(a.sizes), ways.size(), a.wanted);
+  const auto short_of_it = static_cast<std::ptrdiff_t>(ways.size()) - reached;
   return fmt::format(
-      "{}. Add {}: then {} of them come above {:g} sigma and {} stay between {:g} and {:g}. "
-      "Hardest "
-      "now, in sigma before and after: {}. The last comes to {:.1f}: {}{}.",
-      state, positions, reached, a.wanted, static_cast<std::ptrdiff_t>(ways.size()) - reached,
-      AdviceLimits::told, a.wanted, fmt::join(shown, ", "), a.expected_sigma,
-      pair_text(a, a.pairs.front()), verified);
+      "{}{}. Add {}: then {} of them come above {:g} sigma{}. Hardest now, in sigma before and "
+      "after: {}. The last comes to {:.1f}: {}{}.",
+      state, beside, positions, reached, a.wanted,
+      short_of_it == 0 ? ""
+                       : fmt::format(" and {} stay between {:g} and {:g}", short_of_it,
+                                     AdviceLimits::told, a.wanted),
+      fmt::join(shown, ", "), a.expected_sigma, pair_text(a, a.pairs.front()), verified);
 }
 
 std::string hidden_text(const Advice& a) {
@@ -240,9 +253,26 @@ std::string advice_text(const Advice& a) {
 }
 
 std::string advice_in_brief(const Advice& a) {
-  constexpr std::size_t listed = 2;  // more have no room in four lines
-  if (a.kind != Advice::Kind::add || a.plan.size() <= listed) return advice_text(a);
-  return helped_text(a, fmt::format("{} positions, which --full lists", a.plan.size()));
+  return a.kind == Advice::Kind::add ? helped_text(a, plan_in_brief(a)) : advice_text(a);
+}
+
+std::string advice_in_brief(const std::vector<Advice>& all) {
+  if (all.empty()) return "";
+  std::vector<std::string> together;
+  for (const Advice& a : std::span(all).subspan(1))
+    if (a.kind == Advice::Kind::twins && a.sizes != Sizes::one_prior_sigma)
+      together.push_back("no position separates " +
+                         pairs_in_words(a, a.pairs, " and ", most_in_brief));
+    else if (a.kind == Advice::Kind::hidden && a.sizes == Sizes::as_found)
+      together.push_back("no addition separates " +
+                         pairs_in_words(a, a.pairs, " from ", most_in_brief));
+  const Advice& first = all.front();
+  if (together.empty()) return advice_in_brief(first);
+  // Before what is to be added: of what is longer than four lines the end is left off.
+  const std::string text = fmt::format("{}", fmt::join(together, ", and "));
+  return first.kind == Advice::Kind::add
+             ? helped_text(first, plan_in_brief(first), "; " + text)
+             : fmt::format("{} N{}.", advice_in_brief(first), text.substr(1));
 }
 
 std::vector<std::string> advised_labels(const Advice& a) {

@@ -79,7 +79,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "is added to the {}.",
         times_off_text(times->clock), d.of_case ? "model" : "plan");
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
-    return "Next: " + advice_in_brief(d.advice.front());
+    return "Next: " + advice_in_brief(d.advice);
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
         "Next: {}identify with patched.toml, the study with the cause in its model{}{}.",
@@ -111,7 +111,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: more than one effect, or one of another shape, seems to be missing. Diagnose again "
         "with the first in the model: --set \"filter.{}.terms+={}\".",
         d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
-  return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice.front());
+  return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice);
 }
 
 }  // namespace

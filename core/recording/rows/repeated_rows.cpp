@@ -20,37 +20,11 @@ std::uint64_t mixed(std::uint64_t h, std::uint64_t x) {
   return h ^ (h >> 29);
 }
 
-/// The last decimal place with which the readings were written; 0 if they have more than nine.
-double decimal_step(const Channel& c) {
-  constexpr double exact = 1e-14;  // of a number: a conversion of units loses less
-  double places = 1.0;
-  for (int k = 0; k <= 9; ++k, places *= 10.0)
-    if (std::ranges::all_of(c.values, [&](double x) {
-          const double in_places = x / c.unit.to_si * places;
-          return std::isnan(x) || std::abs(in_places - std::round(in_places)) <=
-                                      exact * std::max(1.0, std::abs(in_places));
-        }))
-      return c.unit.to_si / places;
-  return 0.0;
-}
-
 /// A reading to nine digits: the rate that a file of increments gives differs in the last ones.
 std::uint64_t reading(double x) {
   if (std::isnan(x)) return ~std::uint64_t{0};
   constexpr std::uint64_t half = std::uint64_t{1} << 21;
   return (std::bit_cast<std::uint64_t>(x + 0.0) + half) & ~(2 * half - 1);  // -0 is 0
-}
-
-/// The least difference of readings in order of which most are equal to another; or 0.
-double step_between(const std::vector<double>& sorted) {
-  double least = HUGE_VAL;
-  std::size_t distinct = 1;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i] == sorted[i - 1]) continue;
-    ++distinct;
-    least = std::min(least, sorted[i] - sorted[i - 1]);
-  }
-  return distinct > 1 && 2 * distinct <= sorted.size() ? least : 0.0;
 }
 
 class Repeats {
@@ -173,6 +147,30 @@ class Repeats {
 };
 
 }  // namespace
+
+double decimal_step(const Channel& c) {
+  constexpr double exact = 1e-14;  // of a number: a conversion of units loses less
+  double places = 1.0;
+  for (int k = 0; k <= 9; ++k, places *= 10.0)
+    if (std::ranges::all_of(c.values, [&](double x) {
+          const double in_places = x / c.unit.to_si * places;
+          return std::isnan(x) || std::abs(in_places - std::round(in_places)) <=
+                                      exact * std::max(1.0, std::abs(in_places));
+        }))
+      return c.unit.to_si / places;
+  return 0.0;
+}
+
+double step_between(const std::vector<double>& sorted) {
+  double least = HUGE_VAL;
+  std::size_t distinct = 1;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i] == sorted[i - 1]) continue;
+    ++distinct;
+    least = std::min(least, sorted[i] - sorted[i - 1]);
+  }
+  return distinct > 1 && 2 * distinct <= sorted.size() ? least : 0.0;
+}
 
 std::vector<RepeatedRows> repeated_rows(const Recording& recording) {
   return Repeats(recording).find();

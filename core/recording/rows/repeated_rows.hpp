@@ -24,4 +24,11 @@ inline constexpr double chance_of_repeated_rows = 1e-4;
 /// Of more than a hundred thousand rows, short stretches may be passed over. Linear in the rows.
 std::vector<RepeatedRows> repeated_rows(const Recording& recording);
 
+/// The last decimal place with which the readings of a channel were written [internal units]; 0 if
+/// they have more than nine.
+double decimal_step(const Channel& channel);
+
+/// The least difference of readings in order of which most are equal to another; or 0.
+double step_between(const std::vector<double>& sorted);
+
 }  // namespace drift

@@ -11,8 +11,13 @@ namespace {
 
 constexpr double good_part = 0.1;  // of a position
 
-/// "lines 200 to 259 (position 3, from 1200 s on)"
-std::string place_of(const Recording& r, std::size_t first, std::size_t count) {
+std::string longest_text(const Gap& g) {
+  return fmt::format("{:.5g} s after {:.10g} s (line {})", g.length, g.start, g.line);
+}
+
+}  // namespace
+
+std::string rows_in_words(const Recording& r, std::size_t first, std::size_t count) {
   const std::size_t last = first + count - 1;
   const Channel *position = r.find("position"), *time = r.find("time");
   std::string text;
@@ -26,12 +31,6 @@ std::string place_of(const Recording& r, std::size_t first, std::size_t count) {
                      text.empty() ? "" : " (" + text + ")");
 }
 
-std::string longest_text(const Gap& g) {
-  return fmt::format("{:.5g} s after {:.10g} s (line {})", g.length, g.start, g.line);
-}
-
-}  // namespace
-
 void remark_repeats(const Recording& recording, QualityCard& card) {
   const std::vector<RepeatedRows> all = repeated_rows(recording);
   if (all.empty()) return;
@@ -43,8 +42,8 @@ void remark_repeats(const Recording& recording, QualityCard& card) {
   card.remarks.add(Weight::wrong,
                    fmt::format("{} hold the readings of {}, number for number: copied into the log "
                                "by mistake{}?",
-                               place_of(recording, most.again, most.count),
-                               place_of(recording, most.first, most.count), more));
+                               rows_in_words(recording, most.again, most.count),
+                               rows_in_words(recording, most.first, most.count), more));
 }
 
 void remark_gaps(QualityCard& card) {

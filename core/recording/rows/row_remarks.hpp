@@ -1,8 +1,13 @@
 #pragma once
 
+#include <string>
+
 #include "core/recording/rows/quality_card.hpp"
 
 namespace drift {
+
+/// Where rows of a recording stand: "lines 200 to 259 (position 3, from 1200 s on)".
+std::string rows_in_words(const Recording& recording, std::size_t first, std::size_t count);
 
 /// Rows that hold the readings of earlier ones: an error of the log that looks like a measurement.
 void remark_repeats(const Recording& recording, QualityCard& card);

@@ -56,6 +56,24 @@ TEST(GivenRecordings, TheSameReadingsInAnotherUnitAreNoneEither) {
   EXPECT_NE(a.err.find("has the same readings as"), std::string::npos) << a.err;
 }
 
+TEST(GivenRecordings, ALogThatWasCutTwiceIsRefusedWithTheRowsThatStandInBoth) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("made.toml", short_study), one = folder.file("one.csv");
+  ASSERT_EQ(driftscope("simulate " + study + " -o " + one).code, 0);
+  std::string shorter = text_of(one);
+  shorter.erase(shorter.rfind('\n', shorter.size() - 2) + 1);
+  const std::string cut = folder.write("cut.csv", shorter);
+  for (const std::string& files : {one + " " + cut, cut + " " + one}) {
+    const Answer a = driftscope("identify " + study + " " + files + " --quiet");
+    EXPECT_EQ(a.code, static_cast<int>(ExitCode::usage));
+    EXPECT_NE(a.err.find("(positions 1 to 6, from 60 s on) hold the readings of " +
+                         files.substr(0, files.find(' ')) + ": lines"),
+              std::string::npos)
+        << a.err;
+    EXPECT_NE(a.err.find("cut these rows out of one"), std::string::npos) << a.err;
+  }
+}
+
 TEST(GivenRecordings, AreNoSimulatedOneThatHasANumber) {
   const ScratchFolder folder;
   const std::string study = folder.write("made.toml", short_study), one = folder.file("one.csv");

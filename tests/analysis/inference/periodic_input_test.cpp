@@ -115,6 +115,29 @@ TEST(PeriodicInput, IsDatedByTheClockOfTheTest) {
   EXPECT_NEAR(found.amplitude(), height, 4.0 * height / std::sqrt(found.T));
 }
 
+/// How long after the one before a recording begins nobody knows: what is found depends on no
+/// order.
+TEST(PeriodicInput, IsDatedByTheClockOfItsRecording) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 600.0);
+  Measurements measured = Simulator(base_truth(Coupling::eq5), {}).run(timeline, 9, 0).measured;
+  constexpr double fast = 190.0, height = 100.0 * arcsec;
+  const auto second = std::ranges::find(timeline.intervals, timeline.intervals.front().position + 3,
+                                        &Interval::position);
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i) {
+    const double t = timeline.intervals[i].t1,
+                 own = t > second->t0 ? t - second->t0 : t;  // half a cycle off the other's
+    measured.gimbal(1, static_cast<Eigen::Index>(i)) +=
+        height * std::sin(2.0 * std::numbers::pi * own / fast);
+  }
+  search::Fitted e = examined(timeline, measured);
+  e.problem.drives[static_cast<std::size_t>(second - timeline.intervals.begin())].begins = true;
+  const PeriodicInput found =
+      strongest_periodic_input(e.problem, Projector(e.problem, NoiseModel{}));
+  EXPECT_EQ(equation_name(found.equation, found.axis), "gimbal middle");
+  EXPECT_NEAR(found.period_s, fast, 0.01 * fast);
+  EXPECT_NEAR(found.amplitude(), height, 4.0 * height / std::sqrt(found.T));
+}
+
 /// By Davies' bound the chance is at most as stated; the spectrum misses little of what is there.
 TEST(PeriodicInput, IsThereByChanceAsOftenAsItSays) {
   const Timeline timeline = preset_timeline("six", CommandLaw::free, 1800.0);
