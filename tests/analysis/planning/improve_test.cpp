@@ -84,10 +84,12 @@ TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
   const planning::Improvement better = planning::improve_plan(plan, model, criterion, 1, 2);
   const Timeline timeline = lay_out(plan, harbin);
   const Position& last = plan.positions.back();
-  const double turned =
-      (std::round(timeline.intervals.back().heading1 / detail::deg) + 180.0) * detail::deg;
+  const double left = std::round(timeline.intervals.back().heading1 / detail::deg);
+  std::vector<std::optional<double>> headings{std::nullopt};
+  for (const double turn : {-360.0, -180.0, 180.0, 360.0})
+    headings.emplace_back((left + turn) * detail::deg);
   std::vector<planning::Addition> candidates = planning::held(
-      planning::all_attitudes(), {Entry::torqued, last.dwell, last.sample, {std::nullopt, turned}});
+      planning::all_attitudes(), {Entry::torqued, last.dwell, last.sample, headings});
   for (const planning::Addition& a :
        planning::held(planning::all_attitudes(), {Entry::caged, last.dwell, last.sample}))
     candidates.push_back(a);
