@@ -132,6 +132,28 @@ TEST(Improve, AnUnknownCriterionNamesTheNearest) {
   }
 }
 
+TEST(Improve, AnUnknownCriterionNamesWhatItBeginsOrAll) {
+  const Layout layout = make_layout(base_spec(Coupling::eq5));
+  const auto said_of = [&](const char* text) {
+    try {
+      planning::parse_criterion(text, layout);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(said_of("eta").find("Use one of eta_x, eta_y, eta_z"), std::string::npos)
+      << said_of("eta");
+  // Another letter in the place of a whole name is no slip of it.
+  const std::string all = said_of("T_x");
+  EXPECT_EQ(all.find("Did you mean"), std::string::npos) << all;
+  EXPECT_NE(all.find("Use A, D or one of "), std::string::npos) << all;
+  for (const char* key : {" s_x", "eta_x", "D_F_x", "K0_x"})
+    EXPECT_NE(all.find(key), std::string::npos) << key << ": " << all;
+  EXPECT_EQ(all.find("D_F_y"), std::string::npos) << "of a triad the first: " << all;
+  EXPECT_NE(said_of("S_x").find("Did you mean 's_x'?"), std::string::npos) << said_of("S_x");
+}
+
 TEST(Improve, ACriterionThatIsNoStateIsSaidToBeKnown) {
   ModelSpec spec = base_spec(Coupling::eq5);  // which has no lambda
   spec.priors[param("eta_x")] = fixed(100.0 * arcsec);
