@@ -72,7 +72,7 @@ PartShown before_next(const InBrief& brief, std::size_t room, std::size_t width)
     shown.lines.insert(shown.lines.end(), part.lines.begin(), part.lines.end());
     shown.left_out += part.left_out;
   };
-  constexpr std::size_t least_of_verdict = 3;  // lines
+  constexpr std::size_t least_of_verdict = 2;  // lines
   const std::vector<std::string> more = brief.more.texts();
   // What is wrong with the input is said whatever the verdict takes, and what was asked for.
   const std::size_t of_wrong = lines_of(brief.more.first_wrong(), width).size();

@@ -146,13 +146,13 @@ std::string seen_text(const Seen& s, const std::string& said_before) {
   return said + ".";
 }
 
-/// What a sigma is where the truth lies elsewhere, if that is something else.
+/// What a sigma is where the truth lies elsewhere, if that is something else. `where`: the truths.
 std::string range_text(const observability::Ranking& r, std::size_t k, const planning::Elsewhere& e,
-                       bool at_truth) {
+                       std::string_view where) {
   if (!e.other_than(r.learning_ratio(k))) return "";
   const double prior = r.parameters[k].prior_sigma / unit_of(r.parameters[k].param);
-  return fmt::format(" ({} to {} at four truths drawn from {})", number_text(prior * e.low),
-                     number_text(prior * e.high), source_of_truths(at_truth));
+  return fmt::format(" ({} to {} {})", number_text(prior * e.low), number_text(prior * e.high),
+                     where);
 }
 
 /// What is ranked, and for whom: "eq5 (filter corrected)".
@@ -177,14 +177,16 @@ std::string gain_text(const planning::PlanRanking& rank) {
   if (!asked.empty()) shown = asked;
   shown.resize(std::min<std::size_t>(shown.size(), 2));
   std::vector<std::string> parts;
+  std::string where = fmt::format("at four truths drawn from {}", source_of_truths(rank.at_truth));
   for (const std::size_t k : shown) {
+    const std::string range = range_text(after, k, rank.better->elsewhere[k], where);
+    if (!range.empty()) where = "there";  // of a second one
     const double unit = unit_of(before.parameters[k].param);
     const std::string symbol = parameter_unit(before.parameters[k].param);
     parts.push_back(fmt::format("{} from {} to {}{}{}{}", parameter_key(before.layout, k),
                                 number_text(before.parameters[k].posterior_sigma / unit),
                                 number_text(after.parameters[k].posterior_sigma / unit),
-                                symbol == "1" ? "" : " ", symbol == "1" ? "" : symbol,
-                                range_text(after, k, rank.better->elsewhere[k], rank.at_truth)));
+                                symbol == "1" ? "" : " ", symbol == "1" ? "" : symbol, range));
   }
   if (!has_better_plan(rank)) {
     const std::size_t k = asked.front();
