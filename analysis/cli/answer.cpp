@@ -34,9 +34,11 @@ void show_answer(const report::InBrief& brief, const Rest& rest) {
     if (!rest.files.empty()) say("\nWritten to {}: {}\n", rest.folder, fmt::join(rest.files, " "));
     return;
   }
-  show_judgement(report::brief_text(brief, width), brief.tone);
+  const bool whole = terminal().details == Terminal::Shown::yes;
+  show_judgement(whole ? report::whole_text(brief, width) : report::brief_text(brief, width),
+                 brief.tone);
   if (const std::string where = where_text(rest, width); !where.empty()) show("\n{}", where);
-  if (terminal().details == Terminal::Shown::no) return;
+  if (!whole) return;
   show("\n");
   show_verdicts(rest.details);
 }

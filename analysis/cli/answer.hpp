@@ -15,8 +15,8 @@ struct Rest {
   std::string document = {};       ///< what --json prints instead of all that
 };
 
-/// What a command found, by the rule of all commands: the answer in at most ten lines, in colour
-/// where the terminal shows one; where the report is; and, with --full, the rest.
+/// What a command found, by the rule of all commands: the answer in at most ten lines, with --full
+/// whole, in colour where the terminal shows one; where the report is; and, with --full, the rest.
 void show_answer(const report::InBrief& brief, const Rest& rest);
 
 /// Words that go with it: to standard output, or to standard error where that is for JSON alone.

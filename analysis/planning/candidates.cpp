@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/estimate/triangle.hpp"
+#include "core/plan/case_heading.hpp"
 
 namespace drift::planning {
 namespace {
@@ -49,6 +50,16 @@ TestPlan before(const TestPlan& plan, Entry entry, bool past) {
 
 }  // namespace
 
+std::vector<std::optional<double>> headings_after(double left) {
+  std::vector<std::optional<double>> headings{std::nullopt};
+  // What is asked for is written to the study file: whole degrees survive that unchanged.
+  const double degrees = std::round(left / detail::deg);
+  for (const double turn : {180.0, -180.0, 360.0, -360.0})
+    if (std::abs(degrees + turn) <= most_case_heading_deg)
+      headings.emplace_back((degrees + turn) * detail::deg);
+  return headings;
+}
+
 Candidates::Candidates(const TestPlan& plan, const RankedModel& model)
     : model_(model),
       past_(depends_on_the_past(model.spec)),
@@ -74,9 +85,7 @@ void Candidates::renew(const TestPlan& plan) {
   before_caged_ = before(plan, Entry::caged, past_);
   if (!slews_) return;
   before_slewed_ = before(plan, Entry::torqued, past_);
-  // A heading that is asked for is written to the study file: whole degrees survive that unchanged.
-  const double left = lay_out(plan, model_.site).intervals.back().heading1;
-  take(Entry::torqued, {std::nullopt, (std::round(left / detail::deg) + 180.0) * detail::deg});
+  take(Entry::torqued, headings_after(lay_out(plan, model_.site).intervals.back().heading1));
 }
 
 const std::optional<AddedRows>& Candidates::gain(std::size_t k) {

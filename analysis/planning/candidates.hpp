@@ -14,6 +14,12 @@ struct AddedRows {
   double duration = 0.0;  ///< slew and dwell [s]
 };
 
+/// Headings of the case at a position slewed to [rad], where it was left at `left` [rad]: as the
+/// gimbals need, half round and once round, each forward and back as far as a plan may ask for.
+/// Forward and back end alike, yet the rate of the case has the other sign on the way. More turns
+/// than one would tell the more of the same, at the more time.
+std::vector<std::optional<double>> headings_after(double left);
+
 /// The positions that may come next in a plan, in one order for all that judge them: caged ones,
 /// then, where the plan slews, those slewed to. What each tells is integrated when it is asked for.
 class Candidates {

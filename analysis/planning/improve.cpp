@@ -1,6 +1,7 @@
 #include "analysis/planning/improve.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,42 @@ double value_of(const Criterion& criterion, const observability::Posterior& post
   return posterior.sigma[static_cast<Eigen::Index>(criterion.state)];
 }
 
+/// A key without its last word: "D_F" of "D_F_x".
+std::string_view stem_of(std::string_view key) {
+  return key.substr(0, key.rfind('_'));
+}
+
+/// Whether a name was typed, but for capitals or a doubled letter.
+bool is_name(std::string_view typed, std::string_view name) {
+  constexpr double another_letter = 0.9;  // costs that at least
+  return config::typing_distance(typed, name) < another_letter;
+}
+
+/// Whether a key may be what was typed: a stem of a letter or two, s of s_x, that another takes the
+/// place of is another name, but for capitals.
+bool may_be_meant(std::string_view typed, std::string_view key) {
+  constexpr std::size_t a_letter_tells = 3;  // letters
+  const std::string_view stem = stem_of(key);
+  return stem.size() >= a_letter_tells || typed.find('_') == std::string_view::npos ||
+         is_name(stem_of(typed), stem);
+}
+
+/// What to name where no parameter has the name: those that it begins, the nearest, or all, of a
+/// triad the first.
+std::string instead_of(const std::string& typed, const std::vector<std::string_view>& keys) {
+  std::vector<std::string_view> begun, near{"A", "D"}, first;
+  for (const std::string_view key : keys) {
+    if (stem_of(key) != key && is_name(typed, stem_of(key))) begun.push_back(key);
+    if (may_be_meant(typed, key)) near.push_back(key);
+    const bool of_triad = key.ends_with("_y") || key.ends_with("_z");
+    if (!of_triad || first.empty() || stem_of(first.back()) != stem_of(key)) first.push_back(key);
+  }
+  if (!begun.empty()) return fmt::format("Use one of {}", fmt::join(begun, ", "));
+  return config::suggestion(
+      typed, near,
+      fmt::format("Use A, D or one of {} (of _x also _y and _z)", fmt::join(first, ", ")));
+}
+
 }  // namespace
 
 double Improvement::added() const {
@@ -48,7 +85,7 @@ double Improvement::added() const {
 Criterion parse_criterion(const std::string& text, const Layout& layout) {
   if (text == "A") return {Criterion::Kind::A, 0, text};
   if (text == "D") return {Criterion::Kind::D, 0, text};
-  std::vector<std::string_view> keys{"A", "D"};
+  std::vector<std::string_view> keys;
   for (std::size_t k = 0; k < layout.size(); ++k) {
     keys.push_back(TermLibrary::specs[layout.params[k]].key.view());
     if (keys.back() == text) return {Criterion::Kind::parameter, k, text};
@@ -63,7 +100,7 @@ Criterion parse_criterion(const std::string& text, const Layout& layout) {
   throw InputError(ExitCode::usage,
                    fmt::format("--criterion {}: unknown (expected A, D or a parameter that the "
                                "filter estimates). {}",
-                               text, config::suggestion(text, keys)));
+                               text, instead_of(text, keys)));
 }
 
 JudgeStep judge_here(int threads) {

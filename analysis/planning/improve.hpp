@@ -62,7 +62,8 @@ JudgeStep judge_here(int threads);
 /// Adds `count` positions, greedily: each time the candidate that makes the criterion smallest (the
 /// first of equals). Candidates are all attitudes under both command laws, caged; where the plan
 /// slews, also slewed to, with the case left where the gimbals allow it, and with it turned half
-/// round on the way. Dwell and sample interval are those of the last position of the plan.
+/// or once round on the way, forward or back. Dwell and sample interval are those of the last
+/// position of the plan. The time that a turn takes tells of parameters, and is not weighed.
 ///
 /// A position slewed to carries the attitude error of its chain, which is integrated on to it. What
 /// a caged one tells does not depend on what came before and is computed once, unless a term knows

@@ -36,6 +36,9 @@ struct Passage {
 /// Largest angle of the middle gimbal that a plan may use.
 inline constexpr double middle_gimbal_limit = 60.0 * detail::deg;  // [rad]
 
+/// Largest heading that a plan may ask for, either way: a hundred turns.
+inline constexpr double most_case_heading_deg = 36000.0;
+
 /// No heading of the case keeps the middle gimbal of a position where it can be used.
 class GimbalLock : public InputError {
  public:

@@ -101,7 +101,8 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
         fmt::format("'{}' = \"torqued\" in the first position, which has none before it "
                     "to slew from (expected \"caged\"). Cage the first position",
                     section.full("entry")));
-  section.read(Option{"case_heading", unit::deg, -36000.0, 36000.0, "of the case about Up"},
+  section.read(Option{"case_heading", unit::deg, -most_case_heading_deg, most_case_heading_deg,
+                      "of the case about Up"},
                p.case_heading);
   section.finish();
   return p;

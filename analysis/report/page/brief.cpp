@@ -72,13 +72,19 @@ PartShown before_next(const InBrief& brief, std::size_t room, std::size_t width)
     shown.lines.insert(shown.lines.end(), part.lines.begin(), part.lines.end());
     shown.left_out += part.left_out;
   };
-  // What is wrong with the input is said whatever the verdict takes.
+  constexpr std::size_t least_of_verdict = 2;  // lines
+  const std::vector<std::string> more = brief.more.texts();
+  // What is wrong with the input is said whatever the verdict takes, and what was asked for.
   const std::size_t of_wrong = lines_of(brief.more.first_wrong(), width).size();
-  const std::size_t kept = std::min(of_wrong, room / 2);
+  std::size_t of_asked = 0;
+  for (std::size_t k = 0; k < std::min(brief.asked, more.size()); ++k)
+    of_asked += lines_of(more[k], width).size();
+  const std::size_t kept = std::max(std::min(of_wrong, room / 2),
+                                    std::min(of_asked, room - std::min(room, least_of_verdict)));
   room -= kept;
   add(shortened(brief.verdict, room, width));
   room += kept;
-  for (const std::string& text : brief.more.texts()) {
+  for (const std::string& text : more) {
     const PartShown part = shortened(text, room, width);
     if (part.lines.empty() || part.lines.back().ends_with(cut_off))
       shown.left_out += sentences_in(text);  // with nothing whole to be said: not at all
@@ -113,6 +119,17 @@ std::string brief_text(const InBrief& brief, std::size_t width) {
   shown.lines.insert(shown.lines.end(), next.lines.begin(), next.lines.end());
   std::string out;
   for (const std::string& line : shown.lines) out += line + '\n';
+  return out;
+}
+
+std::string whole_text(const InBrief& brief, std::size_t width) {
+  std::string out;
+  const auto add = [&](const std::string& text) {
+    for (const std::string& line : lines_of(text, width)) out += line + '\n';
+  };
+  add(brief.verdict);
+  for (const std::string& text : brief.more.texts()) add(text);
+  add(brief.next);
   return out;
 }
 

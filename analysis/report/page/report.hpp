@@ -89,6 +89,7 @@ struct InBrief {
   std::string verdict = {};  ///< one sentence, its judgement before a colon
   Tone tone = Tone::plain;   ///< good: model and data agree; bad: they do not, or nobody can tell
   WeighedTexts more = {};    ///< what belongs to it
+  std::size_t asked = 0;     ///< so many of them, the first, were asked for: they have room first
   std::string next = {};     ///< what to do
 };
 
@@ -150,6 +151,9 @@ inline constexpr std::size_t most_brief_lines = 10, least_brief_width = 80;
 /// sentences:
 /// --full)"; a sentence that is cut ends with "...".
 std::string brief_text(const InBrief& brief, std::size_t width = least_brief_width);
+
+/// The answer with all its sentences, in as many lines as they take: that of --full.
+std::string whole_text(const InBrief& brief, std::size_t width = least_brief_width);
 
 /// The report for a terminal.
 std::string to_text(const Report& report, std::size_t width = 100);

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <filesystem>
@@ -33,38 +35,47 @@ std::vector<Seen> seen_by(const planning::PlanRanking& rank) {
   return all;
 }
 
-/// Combinations of one reason: "3 combinations are not seen, and no position shows them: D_F_x -
-/// D_II_x - ... (fixed drift with ...)".
-std::string combinations_text(const std::vector<NamedDirection>& directions) {
-  constexpr std::size_t most = 3;
-  const bool one = directions.size() == 1;
-  const NamedDirection& first = directions.front();
-  std::vector<std::string> names;
-  for (const NamedDirection& d : directions) names.push_back(d.combination);
-  return fmt::format("; {} combination{} not seen{}: {}{}", names.size(), one ? " is" : "s are",
-                     first.reason.empty() ? ", for no known reason"
-                     : !first.anywhere    ? ""
-                     : one                ? ", and no position shows it"
-                                          : ", and no position shows them",
-                     listed_up_to(names, most),
-                     first.reason.empty() ? "" : fmt::format(" ({})", first.reason));
-}
+/// Combinations that are not seen for one reason: more than one parameter each, the others are
+/// named as parameters.
+using OfReason = std::vector<NamedDirection>;
 
-/// Of all directions those of more than one parameter; the others are named as parameters.
-std::string combinations_of(const std::vector<NamedDirection>& directions) {
-  std::vector<std::vector<NamedDirection>> of_reason;
+std::vector<OfReason> combinations_of(const std::vector<NamedDirection>& directions) {
+  std::vector<OfReason> all;
   for (const NamedDirection& d : directions) {
     if (d.parts.size() == 1) continue;
     const auto known = std::ranges::find_if(
-        of_reason, [&](const auto& group) { return group.front().reason == d.reason; });
-    if (known == of_reason.end())
-      of_reason.push_back({d});
+        all, [&](const auto& group) { return group.front().reason == d.reason; });
+    if (known == all.end())
+      all.push_back({d});
     else
       known->push_back(d);
   }
-  std::string said;
-  for (const auto& group : of_reason) said += combinations_text(group);
-  return said;
+  return all;
+}
+
+/// "; 3 combinations are not seen, and no position shows them".
+std::string count_text(const OfReason& group) {
+  const bool one = group.size() == 1;
+  const NamedDirection& first = group.front();
+  return fmt::format("; {} combination{} not seen{}", group.size(), one ? " is" : "s are",
+                     first.reason.empty() ? ", for no known reason"
+                     : !first.anywhere    ? ""
+                     : one                ? ", and no position shows it"
+                                          : ", and no position shows them");
+}
+
+/// "D_F_x - D_II_x - ..., ... (fixed drift with ...); ...". Empty where all are seen.
+std::string combinations_text(const Seen& s) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> groups;
+  for (const OfReason& group : combinations_of(s.unseen)) {
+    std::vector<std::string> names;
+    for (const NamedDirection& d : group) names.push_back(d.combination);
+    const std::string& reason = group.front().reason;
+    groups.push_back(listed_up_to(names, most) +
+                     (reason.empty() ? "" : fmt::format(" ({})", reason)));
+  }
+  return fmt::format("{}", fmt::join(groups, "; "));
 }
 
 /// What is left of each prior sigma if positions show all that a position can: its part along the
@@ -98,9 +109,9 @@ bool positions_may_help(const Seen& s) {
   return false;
 }
 
-/// "14 of 18 parameters end below half their prior sigma; hardly seen: eta_y, xi_x (...)".
-/// Those that a product hides where the plan is linearised alone are told apart.
-/// `said_before`: of the combinations of another model, which are not said twice.
+/// "14 of 18 parameters end below half their prior sigma; hardly seen: eta_y, xi_x (...); 3
+/// combinations are not seen". Those that a product hides where the plan is linearised alone are
+/// told apart. `said_before`: the combinations of the model before.
 std::string seen_text(const Seen& s, const std::string& said_before) {
   const planning::ModelRanking& m = s.model;
   constexpr std::size_t most = 8;
@@ -129,19 +140,19 @@ std::string seen_text(const Seen& s, const std::string& said_before) {
         "; not seen where the plan is linearised, but at truths drawn from {} (what is "
         "left of the prior sigma at four): {}",
         s.drawn_from, listed_up_to(hidden, most));
-  const std::string combinations = combinations_of(s.unseen);
-  if (!combinations.empty() && combinations == said_before)
+  if (!said_before.empty() && combinations_text(s) == said_before)
     return said + "; the same combinations are not seen.";
-  return said + combinations + ".";
+  for (const OfReason& group : combinations_of(s.unseen)) said += count_text(group);
+  return said + ".";
 }
 
-/// What a sigma is where the truth lies elsewhere, if that is something else.
+/// What a sigma is where the truth lies elsewhere, if that is something else. `where`: the truths.
 std::string range_text(const observability::Ranking& r, std::size_t k, const planning::Elsewhere& e,
-                       bool at_truth) {
+                       std::string_view where) {
   if (!e.other_than(r.learning_ratio(k))) return "";
   const double prior = r.parameters[k].prior_sigma / unit_of(r.parameters[k].param);
-  return fmt::format(" ({} to {} at four truths drawn from {})", number_text(prior * e.low),
-                     number_text(prior * e.high), source_of_truths(at_truth));
+  return fmt::format(" ({} to {} {})", number_text(prior * e.low), number_text(prior * e.high),
+                     where);
 }
 
 /// What is ranked, and for whom: "eq5 (filter corrected)".
@@ -166,24 +177,28 @@ std::string gain_text(const planning::PlanRanking& rank) {
   if (!asked.empty()) shown = asked;
   shown.resize(std::min<std::size_t>(shown.size(), 2));
   std::vector<std::string> parts;
+  std::string where = fmt::format("at four truths drawn from {}", source_of_truths(rank.at_truth));
   for (const std::size_t k : shown) {
+    const std::string range = range_text(after, k, rank.better->elsewhere[k], where);
+    if (!range.empty()) where = "there";  // of a second one
     const double unit = unit_of(before.parameters[k].param);
     const std::string symbol = parameter_unit(before.parameters[k].param);
     parts.push_back(fmt::format("{} from {} to {}{}{}{}", parameter_key(before.layout, k),
                                 number_text(before.parameters[k].posterior_sigma / unit),
                                 number_text(after.parameters[k].posterior_sigma / unit),
-                                symbol == "1" ? "" : " ", symbol == "1" ? "" : symbol,
-                                range_text(after, k, rank.better->elsewhere[k], rank.at_truth)));
+                                symbol == "1" ? "" : " ", symbol == "1" ? "" : symbol, range));
   }
   if (!has_better_plan(rank)) {
     const std::size_t k = asked.front();
-    const bool product = first.elsewhere[k].other_than(before.learning_ratio(k));
+    const bool seen = before.learning_ratio(k) <= hardly_known;
+    const bool product = !seen && first.elsewhere[k].other_than(before.learning_ratio(k));
     return fmt::format(
         "No better plan was found for {} under {}: {} further position{} bring{} {}. {}",
         better.criterion.text, filter_text(first), better.steps.size(), plural(better.steps.size()),
         better.steps.size() == 1 ? "s" : "", listed(parts, "and"),
         product ? "It is in a product that is not seen where the plan is linearised: give the "
                   "numbers of the others in [truth.parameters], and it is linearised there."
+        : seen  ? "None that the gimbals allow makes it smaller."
                 : "None that the gimbals allow shows it.");
   }
   using Kind = planning::Criterion::Kind;
@@ -238,21 +253,27 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
   InBrief brief;
   const std::vector<Seen> seen = seen_by(rank);
   brief.tone = std::ranges::all_of(seen, &Seen::whole) ? Tone::good : Tone::doubtful;
+  // What was asked for, and what limits every number, before lists that take all the room.
   if (rank.better) brief.more.add(Weight::note, gain_text(rank));
+  if (rank.process_noise)
+    brief.more.add(Weight::note,
+                   "A filter has process noise, not counted here: more is left than is said.");
+  brief.asked = brief.more.texts().size();
   std::string said_before;
+  std::vector<std::string> lists;
   for (const Seen& s : seen) {
-    const std::string said = fmt::format("{}: {}", filter_text(s.model), seen_text(s, said_before));
-    said_before = combinations_of(s.unseen);
+    const std::string said = fmt::format("{}: {}", filter_text(s.model), seen_text(s, said_before)),
+                      list = combinations_text(s);
+    if (!list.empty() && list != said_before)
+      lists.push_back(fmt::format("Not seen under {}: {}.", filter_text(s.model), list));
+    said_before = list;
     if (brief.verdict.empty())
       brief.verdict = "Seen under " + said;
     else
       brief.more.add(Weight::note, "Under " + said);
   }
-  if (rank.process_noise)
-    brief.more.add(Weight::note,
-                   "A filter has process noise, which this information does not know: what is "
-                   "said here is the least that is left.");
   if (rank.assumed_field_l) brief.more.add(Weight::note, field_remark(rank));
+  for (std::string& list : lists) brief.more.add(Weight::note, std::move(list));
   if (has_better_plan(rank) && !folder.empty())
     brief.more.add(Weight::note, unswept_text(improved_study, study));
   brief.next = next_text(study, rank, folder, seen);

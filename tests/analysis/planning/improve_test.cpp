@@ -84,10 +84,12 @@ TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
   const planning::Improvement better = planning::improve_plan(plan, model, criterion, 1, 2);
   const Timeline timeline = lay_out(plan, harbin);
   const Position& last = plan.positions.back();
-  const double turned =
-      (std::round(timeline.intervals.back().heading1 / detail::deg) + 180.0) * detail::deg;
+  const double left = std::round(timeline.intervals.back().heading1 / detail::deg);
+  std::vector<std::optional<double>> headings{std::nullopt};
+  for (const double turn : {-360.0, -180.0, 180.0, 360.0})
+    headings.emplace_back((left + turn) * detail::deg);
   std::vector<planning::Addition> candidates = planning::held(
-      planning::all_attitudes(), {Entry::torqued, last.dwell, last.sample, {std::nullopt, turned}});
+      planning::all_attitudes(), {Entry::torqued, last.dwell, last.sample, headings});
   for (const planning::Addition& a :
        planning::held(planning::all_attitudes(), {Entry::caged, last.dwell, last.sample}))
     candidates.push_back(a);
@@ -128,6 +130,28 @@ TEST(Improve, AnUnknownCriterionNamesTheNearest) {
     EXPECT_EQ(e.code(), ExitCode::usage);
     EXPECT_NE(std::string(e.what()).find("eta_"), std::string::npos) << e.what();
   }
+}
+
+TEST(Improve, AnUnknownCriterionNamesWhatItBeginsOrAll) {
+  const Layout layout = make_layout(base_spec(Coupling::eq5));
+  const auto said_of = [&](const char* text) {
+    try {
+      planning::parse_criterion(text, layout);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(said_of("eta").find("Use one of eta_x, eta_y, eta_z"), std::string::npos)
+      << said_of("eta");
+  // Another letter in the place of a whole name is no slip of it.
+  const std::string all = said_of("T_x");
+  EXPECT_EQ(all.find("Did you mean"), std::string::npos) << all;
+  EXPECT_NE(all.find("Use A, D or one of "), std::string::npos) << all;
+  for (const char* key : {" s_x", "eta_x", "D_F_x", "K0_x"})
+    EXPECT_NE(all.find(key), std::string::npos) << key << ": " << all;
+  EXPECT_EQ(all.find("D_F_y"), std::string::npos) << "of a triad the first: " << all;
+  EXPECT_NE(said_of("S_x").find("Did you mean 's_x'?"), std::string::npos) << said_of("S_x");
 }
 
 TEST(Improve, ACriterionThatIsNoStateIsSaidToBeKnown) {

@@ -1,6 +1,8 @@
 // The short answer of `rank`.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "analysis/report/rank/sections.hpp"
 #include "tests/support/two_cagings.hpp"
 
@@ -22,6 +24,13 @@ struct Answer {
 
 bool has(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
+}
+
+/// Where a sentence stands among those behind the verdict, from 0; npos where none has it.
+std::size_t place_of(const InBrief& brief, std::string_view part) {
+  const std::vector<std::string> all = brief.more.texts();
+  const auto at = std::ranges::find_if(all, [&](const auto& text) { return has(text, part); });
+  return at == all.end() ? std::string::npos : static_cast<std::size_t>(at - all.begin());
 }
 
 TEST(RankBrief, SaysForWhichFilterAndEquationAPlanIsBetter) {
@@ -72,11 +81,12 @@ TEST(RankBrief, NamesWhatNoPositionShowsAndProposesNoneForIt) {
   const Answer a(with_squares());
   for (const auto& p : a.rank.groups.front().models.front().ranking.parameters)
     ASSERT_LT(p.learning_ratio(), 0.9);
-  EXPECT_TRUE(has(a.brief.verdict,
-                  "3 combinations are not seen, and no position shows them: D_F_x - D_II_x - "
-                  "D_OO_x - D_SS_x, "))
+  EXPECT_TRUE(has(a.brief.verdict, "3 combinations are not seen, and no position shows them."))
       << a.brief.verdict;
-  EXPECT_TRUE(has(a.brief.verdict, "= 1 g^2 in any laboratory")) << a.brief.verdict;
+  const std::string list = a.brief.more.texts().back();
+  EXPECT_TRUE(list.starts_with("Not seen under eq5 (filter f): D_F_x - D_II_x - D_OO_x - D_SS_x, "))
+      << list;
+  EXPECT_TRUE(has(list, "= 1 g^2 in any laboratory")) << list;
   EXPECT_FALSE(has(a.brief.verdict, "every one is seen"));
   EXPECT_EQ(a.brief.tone, Tone::doubtful);
   EXPECT_EQ(a.brief.next,
@@ -88,9 +98,10 @@ TEST(RankBrief, SaysTheCombinationsOfTwoFiltersOnce) {
   const Answer a(
       with_squares("[[filter]]\nname = \"other\"\ncoupling = \"eq6\"\n"
                    "terms = [\"fixed_drift\", \"g_drift\", \"g2_drift\"]\n"));
-  EXPECT_TRUE(has(a.brief.verdict, "D_F_x - D_II_x - D_OO_x - D_SS_x")) << a.brief.verdict;
-  const std::string other = a.brief.more.texts().front();
-  EXPECT_TRUE(has(other, "; the same combinations are not seen.")) << other;
+  const std::vector<std::string> more = a.brief.more.texts();
+  ASSERT_EQ(more.size(), 2u);
+  EXPECT_TRUE(has(more[0], "; the same combinations are not seen.")) << more[0];
+  EXPECT_TRUE(has(more[1], "D_F_x - D_II_x - D_OO_x - D_SS_x")) << more[1];
 }
 
 TEST(RankBrief, ProposesNoPositionsForAParameterThatACombinationHides) {
@@ -116,8 +127,8 @@ sample = "5 min"
 mode   = "level"
 )";
   const Answer a(plan + filter + "[\"K0\", \"K1\", \"K3\"]\n");
-  EXPECT_TRUE(has(a.brief.verdict, "3 combinations are not seen: K1_x - K3_x, "))
-      << a.brief.verdict;
+  EXPECT_TRUE(has(a.brief.verdict, "3 combinations are not seen.")) << a.brief.verdict;
+  EXPECT_NE(place_of(a.brief, "K1_x - K3_x, "), std::string::npos);
   EXPECT_TRUE(has(a.brief.next, "driftscope rank s.toml --improve 3 -o out/rank proposes"))
       << a.brief.next;
   EXPECT_TRUE(has(rank_in_brief(a.study, a.rank, "my results").next,
@@ -128,6 +139,26 @@ mode   = "level"
   EXPECT_TRUE(has(whole.brief.verdict, "every one is seen")) << whole.brief.verdict;
   EXPECT_EQ(whole.brief.tone, Tone::good);
   EXPECT_EQ(whole.brief.next, "");
+}
+
+TEST(RankBrief, WhatWasAskedForAndWhatLimitsItStandBeforeLists) {
+  // The priors of three squares hold D_F_x to 0.1 deg/h / sqrt(3) whatever the plan.
+  const Answer a(with_squares("drift_random_walk = \"0.01 deg/h/sqrt(h)\"\n"),
+                 {.improve = 1, .criterion = "D_F_x", .threads = 1});
+  const std::size_t asked = place_of(a.brief, "No better plan was found for D_F_x"),
+                    noise = place_of(a.brief, "process noise"),
+                    list = place_of(a.brief, "Not seen under");
+  ASSERT_NE(list, std::string::npos);
+  EXPECT_EQ(asked, 0u);
+  EXPECT_EQ(noise, 1u);
+  EXPECT_LT(noise, list);
+  EXPECT_TRUE(has(a.brief.more.texts()[asked], "None that the gimbals allow makes it smaller."))
+      << "it is seen: " << a.brief.more.texts()[asked];
+  const std::string said = brief_text(a.brief);
+  EXPECT_TRUE(has(said, "No better plan was found for D_F_x")) << said;
+  EXPECT_TRUE(has(said, "not counted here: more is left")) << said;
+  const std::string whole = whole_text(a.brief, 1000);
+  for (const std::string& text : a.brief.more.texts()) EXPECT_TRUE(has(whole, text)) << text;
 }
 
 TEST(RankBrief, SaysWhereTruthsAreDrawnFrom) {
@@ -142,6 +173,22 @@ coupling = "eq6"
       << priors.brief.verdict;
   EXPECT_TRUE(has(truth.brief.verdict, "at truths drawn from [truth] (what"))
       << truth.brief.verdict;
+}
+
+TEST(RankBrief, APromiseThatHangsOnTheTruthIsNotMadeWithoutThat) {
+  // D_F_z comes to 0.0003 deg/h where the plan is linearised, to four times that and more
+  // elsewhere.
+  const Answer a(test::two_cagings + std::string(R"([[filter]]
+name = "f"
+coupling = "eq6"
+terms = ["D_F", "D_I", "eta"]
+)"),
+                 {.improve = 1, .criterion = "D_F_z", .threads = 1});
+  const std::size_t k = a.rank.better->improvement.criterion.state;
+  ASSERT_GT(a.rank.better->elsewhere[k].low, 2.0 * a.rank.better->after.learning_ratio(k));
+  const std::string said = a.brief.more.texts().front();
+  EXPECT_TRUE(has(said, " at four truths drawn from the priors).")) << said;
+  EXPECT_TRUE(has(brief_text(a.brief, 400), said)) << brief_text(a.brief, 400);
 }
 
 }  // namespace
