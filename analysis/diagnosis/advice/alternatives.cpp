@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "analysis/diagnosis/causes.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
 #include "core/config/nearest.hpp"
@@ -13,13 +13,8 @@
 namespace drift::diagnosis {
 namespace {
 
-/// Of settings of which one end alone is known, as they were weighed: at the top of the profile,
-/// far beyond the library's grid, one effect may be another's twin that it is not on the grid.
 Alternative alternative(std::vector<search::Cause> causes, std::string asked = {}) {
-  for (search::Cause& cause : causes)
-    for (search::CauseParameter& p : cause.parameters)
-      if (p.half_open() && std::isfinite(p.weighed)) p.value = p.weighed;
-  return {Alternative::Kind::causes, std::move(causes), {}, std::move(asked)};
+  return {Alternative::Kind::causes, as_weighed(std::move(causes)), {}, std::move(asked)};
 }
 
 Alternative equation(Coupling coupling, std::vector<search::Cause> causes) {
