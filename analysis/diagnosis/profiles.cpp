@@ -33,12 +33,12 @@ Prior counted_prior(const search::Refit& model, const search::CauseParameter& p)
   return p.profiled ? fixed(0.0) : model.filter.believed(p.param);
 }
 
-/// Where the data took a setting beyond the library's grid the prior that stands for the distance
-/// of its points says nothing any more, neither of the setting nor of the size that goes with it.
-FilterSpec without_grid(const search::Search& found, const search::Refit& model) {
+/// Where the data took settings beyond the library's grid the prior that stands for the distance of
+/// its points says nothing any more, neither of a setting nor of the size that goes with it.
+FilterSpec without_grid(const search::Refit& model, const std::vector<std::size_t>& settings) {
   constexpr double nothing = 1e3;  // times the setting, as a sigma
   FilterSpec filter = model.filter;
-  for (const std::size_t i : search::settings_beyond_grid(found.nominal.set, model)) {
+  for (const std::size_t i : settings) {
     const double value = model.after.fit.estimate.find(i)->value;
     filter.priors[i] = normal(value, nothing * std::abs(value));
   }
@@ -127,6 +127,7 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
       if (all.size() == most_profiles || !(p.sigma > 0.0)) continue;
       const search::Refit& model = found.sets[static_cast<std::size_t>(cause.set)];
       if (!model.after.fit.estimate.find(p.param)) continue;
+      const auto beyond_grid = search::settings_beyond_grid(found.nominal.set, model);
       for (const double value : held_values(found, model, p)) holds.push_back({all.size(), value});
       all.push_back({{.label = search::keyed(cause.term, cause.axis),
                       .set = cause.set,
@@ -134,9 +135,10 @@ std::vector<Profile> profiles_of(const search::Search& found, const MeasuredTest
                       .unit = p.unit,
                       .param = p.param,
                       .value = p.value,
-                      .sigma = p.sigma},
+                      .sigma = p.sigma,
+                      .without_grid = !beyond_grid.empty()},
                      &model,
-                     without_grid(found, model),
+                     without_grid(model, beyond_grid),
                      counted_prior(model, p)});
     }
   take(all, holds, test);
@@ -165,6 +167,7 @@ void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile
         p.low_95 = profile.low_95;
         p.high_95 = profile.high_95;
         p.top = profile.top;
+        p.without_grid = profile.without_grid;
         // Noise that drives the platform is not in the fit, and is in the refits: they are right.
         if (!(p.value < p.low_95) && !(p.value > p.high_95)) continue;
         p.value = profile.top;

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/physics/closure.hpp"
 #include "core/stats/normal.hpp"
 
 namespace drift::search {
@@ -39,13 +38,11 @@ struct CauseParameter {
   bool less_mean = false;  ///< less the mean of the three axes, which the test does not see
   /// With which its cause was weighed, on the library's grid; the profile may say another.
   double weighed = std::numeric_limits<double>::quiet_NaN();
+  bool without_grid = false;  ///< its refits leave a setting of the cause free of that grid
 
   /// The 95 % interval: by refits where there is one, else by the sigma. Where refits found one end
-  /// alone the other is not known (NaN); that of lambda, between two equations, is taken by the
-  /// sigma.
-  bool half_open() const {
-    return param != closure_param && std::isfinite(low_95) != std::isfinite(high_95);
-  }
+  /// alone, without the library's grid, the other is not known (NaN); else the sigma tells it.
+  bool half_open() const { return without_grid && std::isfinite(low_95) != std::isfinite(high_95); }
   bool as_refitted() const { return by_refits() || half_open(); }
   bool by_refits() const { return std::isfinite(low_95) && std::isfinite(high_95); }
   /// Whether value and sigma say as much as the ends that refits found.
@@ -55,8 +52,8 @@ struct CauseParameter {
   }
   /// The value to be told: the most probable one where refits say more than the sigma.
   double told() const {
-    const bool within =
-        half_open() ? !(top < low_95) && !(top > high_95) : top >= low_95 && top <= high_95;
+    const bool within = half_open() ? std::isfinite(top) && !(top < low_95) && !(top > high_95)
+                                    : top >= low_95 && top <= high_95;
     return within && !sigma_says_it() ? top : value;
   }
   double low() const { return as_refitted() ? low_95 : value - stats::half_width_95 * sigma; }

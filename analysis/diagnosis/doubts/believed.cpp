@@ -1,6 +1,8 @@
 #include "analysis/diagnosis/doubts/believed.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "analysis/diagnosis/doubts/wrong_priors.hpp"
@@ -24,13 +26,32 @@ std::vector<std::size_t> parameters_of(const remark::BeyondPrior& beyond) {
   return all;
 }
 
+/// Takes explanations that name the same causes over from the other way round: these are missing
+/// whichever priors are right.
+void share(search::Evidence& told, const search::Search& found, search::Evidence& other,
+           const search::Search& there) {
+  const auto labels = [](const search::Search& s, const search::Explanation& choices) {
+    std::vector<std::string> all;
+    for (const NamedEffect& e : named_effects(s, choices)) all.push_back(e.label);
+    std::ranges::sort(all);
+    return all;
+  };
+  for (search::Evidence::Weighed& w : told.library)
+    std::erase_if(other.library, [&](const search::Evidence::Weighed& o) {
+      const bool same = labels(found, w.choices) == labels(there, o.choices);
+      if (same) w.log_weight = search::log_sum(w.log_weight, o.log_weight);
+      return same;
+    });
+}
+
 /// What would be missing the other way round.
 remark::OtherPriors other_priors(const remark::BeyondPrior& beyond, remark::OtherPriors::Are are,
-                                 const search::Search& found, const search::Posterior& posterior,
+                                 const search::Search& found, const search::Evidence& evidence,
                                  double probability) {
   remark::OtherPriors out{are, parameters_of(beyond), {}, probability};
-  if (!posterior.named.empty() && posterior.named.front().probability > posterior.outside)
-    out.effects = named_effects(found, posterior.named.front().choices);
+  const search::Posterior p = search::posterior_of(evidence);
+  if (!p.named.empty() && p.named.front().probability > p.outside)
+    out.effects = named_effects(found, p.named.front().choices);
   return out;
 }
 
@@ -65,23 +86,28 @@ Believed believed(const FilterSpec& nominal, const MeasuredTest& test, const Bat
     if (out.posterior.wrong_priors > worth_saying) out.instead = std::move(wrong->beyond);
     return out;
   }
+  // Where something is missing that no effect describes, either way, the study is taken at its
+  // word.
+  if (wrong->found.sets.empty()) return out;
   if (search::log_total(wrong->evidence) <= all_right) {
+    share(right, out.found, wrong->evidence, wrong->found);
     right.other_priors = search::log_of_missing(wrong->evidence);
     out.posterior = search::posterior_of(right);
     if (out.posterior.other_priors > worth_saying)
-      out.other = other_priors(wrong->beyond, Are::wrong, wrong->found,
-                               search::posterior_of(wrong->evidence), out.posterior.other_priors);
+      out.other = other_priors(wrong->beyond, Are::wrong, wrong->found, wrong->evidence,
+                               out.posterior.other_priors);
     return out;
   }
-  wrong->evidence.other_priors = all_right;
-  const search::Posterior of_wrong = search::posterior_of(wrong->evidence);
-  if (of_wrong.other_priors > worth_saying)
+  right.wrong_priors = search::never;
+  share(wrong->evidence, wrong->found, right, out.found);
+  wrong->evidence.other_priors = search::log_total(right);
+  out.posterior = search::posterior_of(wrong->evidence);
+  if (out.posterior.other_priors > worth_saying)
     out.other =
-        other_priors(wrong->beyond, Are::right, out.found, out.posterior, of_wrong.other_priors);
+        other_priors(wrong->beyond, Are::right, out.found, right, out.posterior.other_priors);
   out.nominal = std::move(wrong->filter);
   out.wrong_priors = true;
   out.found = std::move(wrong->found);
-  out.posterior = of_wrong;
   return out;
 }
 

@@ -24,7 +24,8 @@ struct Profile {
   /// Where the loss reaches that of 95 % of chi-square of one degree; NaN beyond the points.
   double low_95 = std::numeric_limits<double>::quiet_NaN();
   double high_95 = std::numeric_limits<double>::quiet_NaN();
-  bool less_mean = false;  ///< as of the parameter of the cause
+  bool without_grid = false;  ///< settings of the cause left the library's grid: it says nothing
+  bool less_mean = false;     ///< as of the parameter of the cause
 };
 
 }  // namespace drift::diagnosis

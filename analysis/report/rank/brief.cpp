@@ -258,7 +258,6 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
   if (rank.process_noise)
     brief.more.add(Weight::note,
                    "A filter has process noise, not counted here: more is left than is said.");
-  brief.asked = brief.more.texts().size();
   std::string said_before;
   std::vector<std::string> lists;
   for (const Seen& s : seen) {
@@ -272,6 +271,7 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
     else
       brief.more.add(Weight::note, "Under " + said);
   }
+  brief.asked = brief.more.texts().size();  // other filters of the study, too
   if (rank.assumed_field_l) brief.more.add(Weight::note, field_remark(rank));
   for (std::string& list : lists) brief.more.add(Weight::note, std::move(list));
   if (has_better_plan(rank) && !folder.empty())
