@@ -108,18 +108,26 @@ double other_equation_gain(const search::Search& found, const Judged& judged,
 }
 
 /// noise: what was found of it; samples that are none are noise not as declared, too.
+/// other_way: about the priors, what is not in p.
 Probabilities probabilities(const search::Search& found, const search::Posterior& p,
+                            const Probabilities& other_way,
                             const std::vector<inference::NoiseFinding>& noise) {
-  Probabilities out{p.consistent + p.wrong_priors, p.noise_only, p.outside, {}, p.wrong_priors};
+  Probabilities out{
+      p.consistent + p.wrong_priors, p.noise_only, p.outside, {}, p.wrong_priors, 0.0};
   if (std::ranges::any_of(noise, [](const inference::NoiseFinding& f) {
         return f.significant && f.component == "outliers";
       })) {
     out.noise_only += p.consistent;
     out.consistent = p.wrong_priors;
   }
-  out.other_priors = p.other_priors;
   for (const auto& [choices, probability] : p.named)
     out.named.push_back({named_effects(found, choices), probability});
+  out.consistent += other_way.consistent;
+  out.noise_only += other_way.noise_only;
+  out.outside += other_way.outside;
+  out.other_priors = other_way.other_priors;
+  out.named.insert(out.named.end(), other_way.named.begin(), other_way.named.end());
+  std::ranges::stable_sort(out.named, std::greater{}, &Probabilities::Explanation::probability);
   return out;
 }
 
@@ -215,7 +223,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.noise = std::move(noise.findings);
   d.other_equation_gain = other_equation_gain(found, judged, test);
   d.not_examined = not_examined(nominal, d.causes, test.timeline);
-  d.probabilities = probabilities(found, posterior, d.noise);
+  d.probabilities = probabilities(found, posterior, world.other_way, d.noise);
   if (judged.of_no_noise)  // all of them take the noise for known
     d.probabilities = {nan_value, nan_value, nan_value, {}, nan_value, nan_value};
   d.nominal = nominal_filter;

@@ -105,14 +105,15 @@ double log_outside(const Search& found, const LibraryPrior& prior,
   return std::max({alone, found.log_form, beside_a_cause});
 }
 
-}  // namespace
-
+/// All that an evidence lists where something is missing.
 double log_of_missing(const Evidence& e) {
   double total = std::log(PosteriorPrior::outside) + e.outside;
   for (const Evidence::Weighed& w : e.library)
     total = log_sum(total, std::log(PosteriorPrior::library) + w.log_weight);
   return total;
 }
+
+}  // namespace
 
 double log_total(const Evidence& e) {
   const double nothing = log_sum(log_sum(e.declared, e.estimated), e.wrong_priors);

@@ -46,9 +46,8 @@ struct Evidence {
   double other_priors = never;  ///< Posterior::other_priors, the prior over the three included
 };
 Posterior posterior_of(const Evidence& evidence);
-/// Of all that an evidence lists, together, and of that where something is missing.
+/// Of all that an evidence lists, together.
 double log_total(const Evidence& evidence);
-double log_of_missing(const Evidence& evidence);
 
 /// Of a search that found nothing significant: by the linearised scores of single candidates;
 /// otherwise of the explanations that were fitted. Nothing of wrong priors.

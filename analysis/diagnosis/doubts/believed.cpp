@@ -14,6 +14,8 @@ namespace {
 
 using inference::SearchLimits;
 
+constexpr double worth_saying = 1.0 - SearchLimits::credible;
+
 bool may_be_wrong_priors(const FilterSpec& nominal, const search::Search& found,
                          const search::Posterior& right, double alpha) {
   return found.significant || (right.consistent < SearchLimits::credible &&
@@ -44,14 +46,23 @@ void share(search::Evidence& told, const search::Search& found, search::Evidence
     });
 }
 
-/// What would be missing the other way round.
-remark::OtherPriors other_priors(const remark::BeyondPrior& beyond, remark::OtherPriors::Are are,
-                                 const search::Search& found, const search::Evidence& evidence,
-                                 double probability) {
-  remark::OtherPriors out{are, parameters_of(beyond), {}, probability};
-  const search::Posterior p = search::posterior_of(evidence);
+/// What an evidence says, as parts of a probability.
+Probabilities parts_of(const search::Search& found, const search::Evidence& e, double whole) {
+  const search::Posterior p = search::posterior_of(e);
+  Probabilities out{whole * p.consistent, whole * p.noise_only, whole * p.outside, {}, 0.0, whole};
+  for (const auto& [choices, probability] : p.named)
+    out.named.push_back({named_effects(found, choices), whole * probability, true});
+  return out;
+}
+
+/// What would be missing the other way round; nothing where that is not credible.
+std::optional<remark::OtherPriors> other_priors(const remark::BeyondPrior& beyond,
+                                                remark::OtherPriors::Are are,
+                                                const Probabilities& p) {
+  if (p.other_priors <= worth_saying) return std::nullopt;
+  remark::OtherPriors out{are, parameters_of(beyond), {}, p.other_priors};
   if (!p.named.empty() && p.named.front().probability > p.outside)
-    out.effects = named_effects(found, p.named.front().choices);
+    out.effects = p.named.front().causes;
   return out;
 }
 
@@ -70,14 +81,14 @@ std::vector<NamedEffect> named_effects(const search::Search& found,
 Believed believed(const FilterSpec& nominal, const MeasuredTest& test, const BatchResult& fit,
                   search::Search found, const search::SearchOptions& options) {
   using Are = remark::OtherPriors::Are;
-  constexpr double worth_saying = 1.0 - SearchLimits::credible;
   search::Evidence right = search::evidence_of(found);
   search::Posterior posterior = search::posterior_of(right);
   const double all_right = search::log_total(right);
   std::optional<WrongPriors> wrong;
   if (may_be_wrong_priors(nominal, found, posterior, options.alpha))
     wrong = wrong_priors(nominal, test, fit, found, all_right, options);
-  Believed out{nominal, false, std::move(found), std::move(posterior), std::nullopt, std::nullopt};
+  Believed out{nominal,      false, std::move(found), std::move(posterior), std::nullopt,
+               std::nullopt, {}};
   if (!wrong) return out;
 
   right.wrong_priors = search::log_sum(wrong->evidence.declared, wrong->evidence.estimated);
@@ -91,20 +102,20 @@ Believed believed(const FilterSpec& nominal, const MeasuredTest& test, const Bat
   if (wrong->found.sets.empty()) return out;
   if (search::log_total(wrong->evidence) <= all_right) {
     share(right, out.found, wrong->evidence, wrong->found);
-    right.other_priors = search::log_of_missing(wrong->evidence);
+    // Nothing missing but right priors is listed by itself.
+    wrong->evidence.declared = wrong->evidence.estimated = search::never;
+    right.other_priors = search::log_total(wrong->evidence);
     out.posterior = search::posterior_of(right);
-    if (out.posterior.other_priors > worth_saying)
-      out.other = other_priors(wrong->beyond, Are::wrong, wrong->found, wrong->evidence,
-                               out.posterior.other_priors);
+    out.other_way = parts_of(wrong->found, wrong->evidence, out.posterior.other_priors);
+    out.other = other_priors(wrong->beyond, Are::wrong, out.other_way);
     return out;
   }
   right.wrong_priors = search::never;
   share(wrong->evidence, wrong->found, right, out.found);
   wrong->evidence.other_priors = search::log_total(right);
   out.posterior = search::posterior_of(wrong->evidence);
-  if (out.posterior.other_priors > worth_saying)
-    out.other =
-        other_priors(wrong->beyond, Are::right, out.found, right, out.posterior.other_priors);
+  out.other_way = parts_of(out.found, right, out.posterior.other_priors);
+  out.other = other_priors(wrong->beyond, Are::right, out.other_way);
   out.nominal = std::move(wrong->filter);
   out.wrong_priors = true;
   out.found = std::move(wrong->found);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "analysis/diagnosis/findings/remark.hpp"
+#include "analysis/diagnosis/findings/probabilities.hpp"
 #include "analysis/search/posterior.hpp"
 
 namespace drift::diagnosis {
@@ -17,6 +17,7 @@ struct Believed {
   /// Priors that may be wrong where nothing else is (`explains`).
   std::optional<remark::BeyondPrior> instead;
   std::optional<remark::OtherPriors> other;  ///< the other way round, where it is credible
+  Probabilities other_way;                   ///< its parts, Posterior::other_priors together
 };
 
 /// found: with the priors of the nominal model. fit: of that, under declared noise. Wrong priors

@@ -13,11 +13,12 @@ struct Probabilities {
   struct Explanation {
     std::vector<NamedEffect> causes;
     double probability = 0.0;
+    bool other_priors = false;  ///< the other way round about the priors of the model
   };
   std::vector<Explanation> named;  ///< most probable first
   double wrong_priors = 0.0;       ///< of `consistent`: nothing missing, priors of the model wrong
-  /// The other way round about the priors of the model: all right where what is listed takes some
-  /// for wrong, and else some wrong with something missing besides.
+  /// Of all these, the other way round about the priors of the model: all right where what is told
+  /// takes some for wrong, and else some wrong with something missing besides.
   double other_priors = 0.0;
   bool known() const { return consistent + noise_only + outside > 0.0 || !named.empty(); }
 };

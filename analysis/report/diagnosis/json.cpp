@@ -121,7 +121,9 @@ Json probabilities_json(const Probabilities& p) {
     Json causes = Json::array();
     for (const NamedEffect& c : e.causes)
       causes.push_back({{"term", c.term}, {"axis", text_or_null(c.axis)}, {"label", c.label}});
-    named.push_back({{"causes", std::move(causes)}, {"probability", e.probability}});
+    named.push_back({{"causes", std::move(causes)},
+                     {"probability", e.probability},
+                     {"other_priors", e.other_priors}});
   }
   return {{"consistent", p.consistent},     {"noise_only", p.noise_only},
           {"named", std::move(named)},      {"outside", p.outside},

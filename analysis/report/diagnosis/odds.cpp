@@ -30,13 +30,15 @@ Section odds(const Diagnosis& d) {
     }
     std::vector<std::string> labels;
     for (const NamedEffect& c : e.causes) labels.push_back(c.label);
-    add(fmt::format("{}", fmt::join(labels, " together with ")), e.probability);
+    add(fmt::format("{}{}", fmt::join(labels, " together with "),
+                    !e.other_priors                ? ""
+                    : priors_taken_text(d).empty() ? ", and priors of the model wrong"
+                                                   : ", and all priors right"),
+        e.probability);
   }
   if (others > 0.0)
     add(fmt::format("another effect of the library, each below {}", least_shown), others);
   add("something that no term of the library describes", p.outside);
-  if (const auto* other = remark_in<remark::OtherPriors>(d))
-    add(other_priors_text(*other, instrument_of(d)), p.other_priors);
   return {"What the recording may be",
           {table, Paragraph{fmt::format(
                       "By the marginal likelihood of each and a prior that is the same for all "

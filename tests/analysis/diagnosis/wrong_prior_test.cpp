@@ -103,6 +103,12 @@ Diagnosis with_pulses_of(double weight, std::string_view command, const mc::Stud
   return diagnose(study, {recording}, options);
 }
 
+double sum_of(const Probabilities& p) {
+  double sum = p.consistent + p.noise_only + p.outside;
+  for (const auto& e : p.named) sum += e.probability;
+  return sum;
+}
+
 TEST(WrongPrior, IsARivalOfTheEffectThatImitatesIt) {
   // A restraint of the float takes most of that up, at a size that is usual.
   mc::Study study = level_study("six");
@@ -113,9 +119,7 @@ TEST(WrongPrior, IsARivalOfTheEffectThatImitatesIt) {
   EXPECT_NE(d.verdict, Verdict::named) << said;
   EXPECT_NE(said.find("the prior of s_z"), std::string::npos) << said;
   EXPECT_GT(d.probabilities.wrong_priors, 0.05);
-  double sum = d.probabilities.consistent + d.probabilities.noise_only + d.probabilities.outside;
-  for (const auto& e : d.probabilities.named) sum += e.probability;
-  EXPECT_NEAR(sum, 1.0, 1e-12);
+  EXPECT_NEAR(sum_of(d.probabilities), 1.0, 1e-12);
   EXPECT_NE(report::diagnosis_in_brief(d).next.find("the prior of s_z"), std::string::npos);
 }
 
@@ -171,6 +175,8 @@ TEST(WrongPrior, BesideAnEffectIsToldAndTheEffectHasItsName) {
     EXPECT_EQ(d.verdict, Verdict::named) << said;
     ASSERT_FALSE(d.causes.empty()) << said;
     for (const search::Cause& cause : d.causes) EXPECT_EQ(cause.term, c.term) << said;
+    EXPECT_NEAR(sum_of(d.probabilities), 1.0, 1e-12);
+    EXPECT_LT(d.probabilities.other_priors, 0.05);
     const auto* beyond = remark_in<remark::BeyondPrior>(d);
     ASSERT_NE(beyond, nullptr) << said;
     EXPECT_TRUE(beyond->taken);
