@@ -242,11 +242,4 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
   return out;
 }
 
-std::vector<search::Cause> as_weighed(std::vector<search::Cause> causes) {
-  for (search::Cause& cause : causes)
-    for (search::CauseParameter& p : cause.parameters)
-      if (p.half_open() && std::isfinite(p.weighed)) p.value = p.weighed;
-  return causes;
-}
-
 }  // namespace drift::diagnosis

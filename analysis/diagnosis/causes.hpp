@@ -22,8 +22,4 @@ CausesFound causes_of(const search::Fitted& nominal, const search::Search& found
 /// sigmas of that; NaN where that is one value.
 double prior_sigmas(const FilterSpec& nominal, std::size_t param, double value);
 
-/// Causes with the settings of which one end alone is known as they were weighed: at the top of its
-/// profile, far beyond the library's grid, an effect may be another's twin that it is not there.
-std::vector<search::Cause> as_weighed(std::vector<search::Cause> causes);
-
 }  // namespace drift::diagnosis

@@ -107,4 +107,13 @@ struct CandidateScore {
   std::string unit;
 };
 
+/// Causes with the settings of which one end alone is known as they were weighed: at the top of its
+/// profile, far beyond the library's grid, an effect may be another's twin that it is not there.
+inline std::vector<Cause> as_weighed(std::vector<Cause> causes) {
+  for (Cause& cause : causes)
+    for (CauseParameter& p : cause.parameters)
+      if (p.half_open() && std::isfinite(p.weighed)) p.value = p.weighed;
+  return causes;
+}
+
 }  // namespace drift::search

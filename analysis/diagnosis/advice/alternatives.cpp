@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "analysis/diagnosis/causes.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/check.hpp"
 #include "core/config/nearest.hpp"
@@ -14,7 +13,7 @@ namespace drift::diagnosis {
 namespace {
 
 Alternative alternative(std::vector<search::Cause> causes, std::string asked = {}) {
-  return {Alternative::Kind::causes, as_weighed(std::move(causes)), {}, std::move(asked)};
+  return {Alternative::Kind::causes, search::as_weighed(std::move(causes)), {}, std::move(asked)};
 }
 
 Alternative equation(Coupling coupling, std::vector<search::Cause> causes) {
