@@ -102,7 +102,7 @@ Believed believed(const FilterSpec& nominal, const MeasuredTest& test, const Bat
   if (wrong->found.sets.empty()) return out;
   if (search::log_total(wrong->evidence) <= all_right) {
     share(right, out.found, wrong->evidence, wrong->found);
-    // Nothing missing but right priors is listed by itself.
+    // That nothing is missing but priors are wrong is listed by itself.
     wrong->evidence.declared = wrong->evidence.estimated = search::never;
     right.other_priors = search::log_total(wrong->evidence);
     out.posterior = search::posterior_of(right);

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/doubts.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "core/base/number_text.hpp"
 
@@ -16,6 +15,10 @@ Section odds(const Diagnosis& d) {
   const Probabilities& p = d.probabilities;
   if (!p.known()) return {};
   Table table("", "< | probability");
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  const std::string_view other_way = beyond != nullptr && beyond->taken
+                                         ? ", and all priors right"
+                                         : ", and priors of the model wrong";
   const auto add = [&](const std::string& what, double probability) {
     table.add({what, probability < 5e-4 ? Cell("below 0.001") : decimals(probability, 3)});
   };
@@ -30,10 +33,7 @@ Section odds(const Diagnosis& d) {
     }
     std::vector<std::string> labels;
     for (const NamedEffect& c : e.causes) labels.push_back(c.label);
-    add(fmt::format("{}{}", fmt::join(labels, " together with "),
-                    !e.other_priors                ? ""
-                    : priors_taken_text(d).empty() ? ", and priors of the model wrong"
-                                                   : ", and all priors right"),
+    add(fmt::format("{}{}", fmt::join(labels, " together with "), e.other_priors ? other_way : ""),
         e.probability);
   }
   if (others > 0.0)
