@@ -52,8 +52,7 @@ struct CauseParameter {
   }
   /// The value to be told: the most probable one where refits say more than the sigma.
   double told() const {
-    const bool within = half_open() ? std::isfinite(top) && !(top < low_95) && !(top > high_95)
-                                    : top >= low_95 && top <= high_95;
+    const bool within = as_refitted() && std::isfinite(top) && !(top < low_95) && !(top > high_95);
     return within && !sigma_says_it() ? top : value;
   }
   double low() const { return as_refitted() ? low_95 : value - stats::half_width_95 * sigma; }
