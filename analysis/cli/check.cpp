@@ -47,7 +47,7 @@ ExitCode check(const StudyArguments& arguments) {
         "K1, in ppm, is off by as many ppm as gravity is there\n",
         *gravity);
   say("{}", report::truth_memory_text(study, 0));
-  say("{}", mc::slow_servo_text(study));
+  say("{}", mc::servo_notes(study));
   say("{}", still_to_check_text(study));
   return ExitCode::ok;
 }

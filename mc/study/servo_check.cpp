@@ -30,6 +30,31 @@ std::string swinging_at(const std::complex<double>& mode) {
   return fmt::format(", swinging at {:.3g} Hz", std::abs(mode.imag()) / (2.0 * std::numbers::pi));
 }
 
+std::string slow_loop(const Study& study) {
+  const double sample =
+      std::ranges::min(study.plan.positions, {}, &Position::sample).sample;  // [s]
+  const ServoModes modes = servo_modes(study.truth.servo, turn_of_gyros(study.truth));
+  if (modes.time() <= sample) return "";
+  const std::string settles =
+      std::isfinite(modes.time())
+          ? fmt::format("settles by a factor e in {:.3g} s{}, longer than", modes.time(),
+                        swinging_at(modes.slowest))
+          : fmt::format("does not settle{}, let alone within", swinging_at(modes.slowest));
+  return fmt::format(
+      "note: [truth.servo]: the loop {} the shortest sample of the plan ({:.6g} s): what it does "
+      "on the way is in the rows, and in no filter. A longer lead, or a higher loop_gain, settles "
+      "sooner\n",
+      settles, sample);
+}
+
+std::string base_at_rest(const ServoOptions& servo) {
+  const bool turns = servo.base_amplitude > 0.0, often = servo.base_frequency > 0.0;
+  if (turns == often) return "";
+  return fmt::format(
+      "note: [truth.servo]: {} without {}: the base stands still. Give both, or neither\n",
+      turns ? "base_amplitude" : "base_frequency", turns ? "base_frequency" : "base_amplitude");
+}
+
 }  // namespace
 
 void check_servo(const config::Node& root, const Study& study, config::Report& report) {
@@ -58,24 +83,11 @@ void check_servo(const config::Node& root, const Study& study, config::Report& r
                       modes.time(), swinging_at(modes.slowest)));
 }
 
-std::string slow_servo_text(const Study& study) {
+std::string servo_notes(const Study& study) {
   const bool integrates = study.has_truth && study.kind == RecordingKind::platform &&
                           study.truth.coupling == Coupling::servo;
   if (!integrates || study.plan.positions.empty()) return "";
-  const double sample =
-      std::ranges::min(study.plan.positions, {}, &Position::sample).sample;  // [s]
-  const ServoModes modes = servo_modes(study.truth.servo, turn_of_gyros(study.truth));
-  if (modes.time() <= sample) return "";
-  const std::string settles =
-      std::isfinite(modes.time())
-          ? fmt::format("settles by a factor e in {:.3g} s{}, longer than", modes.time(),
-                        swinging_at(modes.slowest))
-          : fmt::format("does not settle{}, let alone within", swinging_at(modes.slowest));
-  return fmt::format(
-      "note: [truth.servo]: the loop {} the shortest sample of the plan ({:.6g} s): what it does "
-      "on the way is in the rows, and in no filter. A longer lead, or a higher loop_gain, settles "
-      "sooner\n",
-      settles, sample);
+  return slow_loop(study) + base_at_rest(study.truth.servo);
 }
 
 }  // namespace drift::mc

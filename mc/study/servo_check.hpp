@@ -12,8 +12,9 @@ namespace drift::mc {
 /// where neither [truth.servo] is given nor the coupling is "servo".
 void check_servo(const config::Node& root, const Study& study, config::Report& report);
 
-/// A note, one line, where the loop of [truth] settles in longer than the shortest sample of the
-/// plan: what it settles to, eq. (6), is then not what the rows show. Empty otherwise.
-std::string slow_servo_text(const Study& study);
+/// Notes, one line each, on a loop of [truth] that settles in longer than the shortest sample of
+/// the plan (what it settles to, eq. (6), is then not what the rows show), and on a motion of the
+/// base with an amplitude or a frequency alone, which is none. Empty where there is nothing to say.
+std::string servo_notes(const Study& study);
 
 }  // namespace drift::mc

@@ -59,7 +59,7 @@ TEST(ServoCheck, ASweepIsJudgedByItsPoints) {
 
 TEST(ServoCheck, ALoopThatSettlesSlowerThanTheSamplesIsNoted) {
   const auto note = [](const std::string& gain, const mc::Overrides& overrides) {
-    return mc::slow_servo_text(test::read_text(
+    return mc::servo_notes(test::read_text(
         test::small_study + "[truth.servo]\nloop_gain = \"" + gain + " N*m/rad\"\n", overrides));
   };
   mc::Overrides short_rows = servo;
@@ -67,7 +67,16 @@ TEST(ServoCheck, ALoopThatSettlesSlowerThanTheSamplesIsNoted) {
   EXPECT_EQ(note("200", short_rows), "");
   EXPECT_NE(note("0.001", short_rows).find("settles by a factor e in"), std::string::npos);
   EXPECT_EQ(note("0.001", servo), "");  // 100 s against rows of 2 min
-  EXPECT_EQ(mc::slow_servo_text(test::read_text(test::small_study)), "");
+  EXPECT_EQ(mc::servo_notes(test::read_text(test::small_study)), "");
+}
+
+TEST(ServoCheck, ABaseMotionWithoutAmplitudeOrFrequencyIsNoted) {
+  const auto note = [](const std::string& lines) {
+    return mc::servo_notes(test::read_text(test::small_study + "[truth.servo]\n" + lines, servo));
+  };
+  EXPECT_NE(note("base_frequency = \"1 Hz\"\n").find("without base_amplitude"), std::string::npos);
+  EXPECT_NE(note("base_amplitude = \"1 deg\"\n").find("without base_frequency"), std::string::npos);
+  EXPECT_EQ(note("base_amplitude = \"1 deg\"\nbase_frequency = \"1 Hz\"\n"), "");
 }
 
 }  // namespace
