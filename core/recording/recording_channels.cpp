@@ -8,16 +8,16 @@
 namespace drift {
 namespace {
 
-constexpr ChannelQuantity time_q{"s"_unit.dim, "a time, for example [s], [ms], [min] or [h]"};
+constexpr ChannelQuantity time_q{unit::s, "a time, for example [s], [ms], [min] or [h]"};
 constexpr ChannelQuantity force_q{
-    "g"_unit.dim, "a specific force, for example [g], [mg] or [ug]", true,
+    unit::g, "a specific force, for example [g], [mg] or [ug]", true,
     100.0};  // instruments on a platform or a case saturate before; -999 m/s^2 is no reading
 constexpr ChannelQuantity angle_q{
-    "rad"_unit.dim, "an angle, for example [deg], [rad], [arcmin] or [arcsec]", true, 1e5};
+    unit::deg, "an angle, for example [deg], [rad], [arcmin] or [arcsec]", true, 1e5};
 constexpr ChannelQuantity rate_q{
-    "rad/s"_unit.dim, "an angular rate, for example [deg/h], [deg/s] or [rad/s]", true, 200.0};
-constexpr ChannelQuantity command_q{rate_q.dim, rate_q.words, true, 10.0};
-constexpr ChannelQuantity number_q{{}, "a plain number, without unit", false};
+    unit::deg_per_h, "an angular rate, for example [deg/h], [deg/s] or [rad/s]", true, 200.0};
+constexpr ChannelQuantity command_q{rate_q.unit, rate_q.words, true, 10.0};
+constexpr ChannelQuantity number_q{unit::one, "a plain number, without unit", false};
 
 /// The covariate that a column is, or a component of; null: none of the library's.
 const CovariateSpec* covariate_in(std::string_view column) {
@@ -42,7 +42,7 @@ std::optional<ChannelQuantity> known_quantity(std::string_view name) {
   if (name == "case_heading" || name.starts_with("loop_eta_") || name.starts_with("loop_xi_"))
     return angle_q;
   if (const CovariateSpec* c = covariate_in(name))
-    return ChannelQuantity{c->unit.dim, c->measures, true, c->reason * c->unit.to_si};
+    return ChannelQuantity{c->unit, c->measures, true, c->reason * c->unit.to_si};
   constexpr std::array quantities{force_q, angle_q, command_q,
                                   rate_q};  // in the order of the triples
   for (std::size_t t = 0; t < channel_triples.size(); ++t)

@@ -12,7 +12,7 @@ namespace drift {
 
 /// What a known channel measures (core/docs/recording.md).
 struct ChannelQuantity {
-  Dimension dim;
+  Unit unit;               ///< in which a number of it is told
   std::string_view words;  ///< "a specific force, for example [g], [mg] or [ug]"
   bool needs_unit = true;
   double most =

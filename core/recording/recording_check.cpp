@@ -143,7 +143,7 @@ void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
     const bool command = c.name.starts_with("cmd_") && kind == RecordingKind::platform;
     const auto quantity = known_quantity(c.name);
     // In a unit that is not known, or that measures something else, no number is beyond reason.
-    const double most = quantity && quantity->dim == c.unit.dim
+    const double most = quantity && quantity->unit.dim == c.unit.dim
                             ? quantity->most
                             : std::numeric_limits<double>::max();
     const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");

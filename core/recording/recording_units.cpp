@@ -19,11 +19,11 @@ std::optional<ChannelQuantity> quantity_of(const RawColumn& column, const UnitCo
   const bool increments =
       context.samples == SampleKind::increments && context.kind == RecordingKind::strapdown;
   if (increments && column.name.starts_with("gyro_") && known_quantity(column.name))
-    return ChannelQuantity{unit::rad.dim, "an angle gained per sample, for example [rad] or [deg]",
+    return ChannelQuantity{unit::rad, "an angle gained per sample, for example [rad] or [deg]",
                            true, 1e3};
   if (increments && column.name.starts_with("acc_") && known_quantity(column.name))
-    return ChannelQuantity{"g*s"_unit.dim,
-                           "a velocity gained per sample, for example [m/s] or [g*s]", true, 1e5};
+    return ChannelQuantity{"g*s"_unit, "a velocity gained per sample, for example [m/s] or [g*s]",
+                           true, 1e5};
   return known_quantity(column.name);
 }
 
@@ -85,11 +85,11 @@ Unit checked_unit(RawColumn& column, const UnitContext& context, Problems& probl
                  "[recording] columns of the study file");
     return unit::one;
   }
-  if (!quantity || unit->dim == quantity->dim) return *unit;
-  if (quantity->dim == unit::g.dim && unit->dim == acceleration.dim)
+  if (!quantity || unit->dim == quantity->unit.dim) return *unit;
+  if (quantity->unit.dim == unit::g.dim && unit->dim == acceleration.dim)
     return {unit->symbol, unit->to_si / context.gravity, unit::g.dim};
-  if (quantity->dim == "g*s"_unit.dim && unit->dim == velocity.dim)
-    return {unit->symbol, unit->to_si / context.gravity, quantity->dim};
+  if (quantity->unit.dim == "g*s"_unit.dim && unit->dim == velocity.dim)
+    return {unit->symbol, unit->to_si / context.gravity, quantity->unit.dim};
   std::string fix = "Correct the unit or the name of the column";
   if (context.samples == SampleKind::rates && context.kind == RecordingKind::strapdown &&
       (unit->dim == unit::rad.dim || unit->dim == velocity.dim))

@@ -124,12 +124,9 @@ void read_offsets(Section& section, RecordingKind kind, RecordingFormat& format)
   for (const auto& member : members(section, "offset", "offset = { gimbal_inner = \"90 deg\" }")) {
     if (!check_channel(section, "offset", member, kind)) continue;
     const std::string key = section.full(fmt::format("offset.{}", member.key));
-    Unit wanted = unit::one;
-    if (const auto quantity = known_quantity(member.key))
-      for (const Unit& u :
-           {unit::s, unit::g, unit::deg, unit::deg_per_h, "degC"_unit, "gauss"_unit})
-        if (u.dim == quantity->dim) wanted = u;
-    const Option option{.key = member.key, .unit = wanted, .difference = true};
+    const auto quantity = known_quantity(member.key);
+    const Option option{
+        .key = member.key, .unit = quantity ? quantity->unit : unit::one, .difference = true};
     const auto q = config::read_quantity(section.report(), member.value, key, option);
     if (!q) continue;
     format.offsets.push_back({member.key, q->si(), q->unit.dim});

@@ -94,7 +94,7 @@ std::vector<std::string> in_units_of(const GuessedFile& file, std::string_view c
   std::vector<std::string> names;
   for (const GuessedColumn* c : free_columns(file)) {
     const auto unit = parse_recording_unit(unit_in_file(*c));
-    if (unit && (unit->dim == known_quantity(channel)->dim ||
+    if (unit && (unit->dim == known_quantity(channel)->unit.dim ||
                  (channel.starts_with("acc_") && unit->dim == "m/s^2"_unit.dim)))
       names.push_back(with_unit(*c));
   }

@@ -68,7 +68,7 @@ std::optional<Unit> stated_unit(const GuessedColumn& c) {
 
 bool measures(const Unit& unit, std::string_view channel) {
   const auto quantity = known_quantity(channel);
-  if (!quantity || unit.dim == quantity->dim) return true;
+  if (!quantity || unit.dim == quantity->unit.dim) return true;
   if (channel.starts_with("gyro_")) return unit.dim == "rad"_unit.dim;
   return channel.starts_with("acc_") &&
          (unit.dim == "m/s^2"_unit.dim || unit.dim == "m/s"_unit.dim || unit.dim == "g*s"_unit.dim);
