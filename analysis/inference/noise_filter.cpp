@@ -103,6 +103,7 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
               P.template block<3, 3>(0, 3) += step.kick;
               P.template block<3, 3>(3, 0) += step.kick.transpose();
             }
+          P.template topLeftCorner<3, 3>() += step.anew * step.anew.transpose();
           events_.push_back({next, 0, moves_.size()});
           for (int m = 0; m < others; ++m)
             moves_.insert(moves_.end(), {drive(0, m), drive(1, m), drive(2, m), decay[m]});

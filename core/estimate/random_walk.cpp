@@ -27,6 +27,9 @@ class Innovations {
     P_.leftCols<3>() += P_.rightCols<3>() * N.transpose();
   }
 
+  /// The attitude gains a covariance that nothing before it feels.
+  void disturb(const Mat3& covariance) { P_.topLeftCorner<3, 3>() += covariance; }
+
   /// Takes in the next row: what is left of it beside the rows before, in its own sigmas. beside:
   /// what it feels of the noise besides.
   void whiten_next(const Vec3& beside) {
@@ -64,7 +67,8 @@ void whiten_random_walk(const MeasuredTest& test, double walk, double sigma_psi,
     Innovations& filter = filters[static_cast<std::size_t>(interval.chain)];
     const HeldNoise held = held_noise(interval, timeline);
     // In units of the attitude's prior and of the rows' sigmas.
-    filter.hold(walk * walk / (interval.length() * sigma_psi * sigma_psi));
+    const double variance = walk * walk / (interval.length() * sigma_psi * sigma_psi);
+    filter.hold(variance);
     const Mat3 beside =
         sigma_psi / interval.accelerometer_noise(readout.accelerometer_noise) * held.beside;
     const auto column = static_cast<Eigen::Index>(i);
@@ -75,6 +79,7 @@ void whiten_random_walk(const MeasuredTest& test, double walk, double sigma_psi,
     filter.drive(held.to_middle);
     take(readout.accelerometers, measured.acc, beside);
     filter.drive(held.from_middle);
+    filter.disturb(variance * held.anew * held.anew.transpose());
     take(readout.gimbals, measured.gimbal, Mat3::Zero());
   }
 }

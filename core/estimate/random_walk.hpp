@@ -7,7 +7,7 @@ namespace drift {
 /// Makes the rows of a test white where noise of the gyros has moved the platform since its caging:
 /// every column of a chain runs through the innovations of a Kalman filter with gains that depend
 /// on the noise alone. Its states are what the noise has made of the attitude, and its value
-/// through the sample (HeldNoise). The attitude at caging stays an unknown of the rows.
+/// in the sample (HeldNoise). The attitude at caging stays an unknown of the rows.
 ///
 /// walk: of each axis [rad/sqrt(s)]; sigma_psi: of the attitude's prior, whose units the rows are
 /// in [rad]. None comes at rest. What comes late is carried back to the caging, as the rows'

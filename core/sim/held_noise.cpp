@@ -1,12 +1,17 @@
 #include "core/sim/held_noise.hpp"
 
+#include <numbers>
+
 #include "core/base/linalg.hpp"
+#include "core/sim/trajectory.hpp"
 
 namespace drift {
 namespace {
 
-/// How far the noise has turned the platform: its integral in inertial axes, of third order to the
-/// middle of a pair of steps and of fourth to its end.
+using std::numbers::inv_sqrt3, std::numbers::sqrt3;
+
+/// How far noise that is held has turned the platform: its integral in inertial axes, of third
+/// order to the middle of a pair of steps and of fourth to its end.
 template <class Visit>
 void integrate(const Interval& interval, const Timeline& timeline, Visit&& visit) {
   const Node* node = &timeline.nodes[interval.first_node];
@@ -44,8 +49,20 @@ HeldNoise held_noise(const Interval& interval, const Timeline& timeline) {
     to_end = turned;
   });
   out.beside -= mean_force * out.to_middle;
-  out.from_middle = to_end - out.to_middle;
+  // So far of a value that is held; its mean lies at the middle.
+  out.to_middle *= 2.0 * inv_sqrt3;
+  out.beside *= 2.0 * inv_sqrt3;
+  out.from_middle = 0.5 * sqrt3 * to_end - out.to_middle;
+  out.anew = 0.5 * to_end;
   return out;
+}
+
+void turn_between_ends(const Interval& interval, const Timeline& timeline, const Vec3& b,
+                       Vec3* phi) {
+  integrate(interval, timeline, [&](std::size_t k, const Mat3& through) {
+    const Node& node = timeline.nodes[interval.first_node + k];
+    phi[k] = turned(node, inv_sqrt3 * through * b, phi[k]);
+  });
 }
 
 }  // namespace drift

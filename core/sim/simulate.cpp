@@ -5,6 +5,7 @@
 
 #include "core/physics/stochastic.hpp"
 #include "core/plan/stretches_and_chains.hpp"
+#include "core/sim/held_noise.hpp"
 #include "core/sim/instruments.hpp"
 #include "core/sim/own_terms_drawn.hpp"
 #include "core/sim/platform_ode.hpp"
@@ -82,8 +83,10 @@ void Simulator::begin(const Timeline& timeline, const TruthDraw& draw, std::uint
     sensor_noise_[c].emplace(seed, run_number, Purpose::sensor_noise, c);
     process_noise_[c].emplace(seed, run_number, Purpose::process_noise, c);
   }
-  for (std::uint32_t c = 0; c < 3; ++c)
+  for (std::uint32_t c = 0; c < 3; ++c) {
     drift_level_[c].emplace(seed, run_number, Purpose::drift_level, c);
+    between_ends_[c].emplace(seed, run_number, Purpose::process_noise, 6 + c);
+  }
   for (std::uint32_t c = 0; c < 6; ++c)
     wrong_samples_[c].emplace(seed, run_number, Purpose::wrong_samples, c);
   require_covariates(model_, timeline);
@@ -172,6 +175,20 @@ double Simulator::wrong_by(std::size_t channel, const Theta& theta) {
   return wrong ? outlier_size(theta) * size : 0.0;
 }
 
+/// The attitude at the nodes of interval i with what white noise of the gyros does between its ends
+/// (HeldNoise): `phi` where there is none.
+const Vec3* Simulator::turned_between(const Timeline& timeline, std::size_t i, const Vec3* phi) {
+  const double walk = truth_.noise.angle_random_walk;
+  const Interval& interval = timeline.intervals[i];
+  if (walk == 0.0 || interval.rest) return phi;
+  Vec3 b;
+  for (int a = 0; a < 3; ++a)
+    b[a] = walk / std::sqrt(interval.length()) * between_ends_[a]->normal();
+  phi_between_.assign(phi, phi + interval.node_count());
+  turn_between_ends(interval, timeline, b, phi_between_.data());
+  return phi_between_.data();
+}
+
 void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out) {
   const Interval& interval = timeline.intervals[i];
   const Instruments instruments{&timeline, &model_, out.draw.theta.data()};
@@ -179,7 +196,8 @@ void Simulator::measure(const Timeline& timeline, std::size_t i, Simulation& out
   const auto memory = [&](std::size_t k) { return points ? points[2 * k].value.data() : nullptr; };
   const Vec3* phi = &out.phi[interval.first_node];
   if (readout_.accelerometers) {
-    const Vec3 mean = instruments.accelerometers(interval, phi, memory);
+    const Vec3 mean =
+        instruments.accelerometers(interval, turned_between(timeline, i, phi), memory);
     for (int a = 0; a < 3; ++a)
       out.measured.acc(a, i) =
           mean[a] + interval.accelerometer_noise(readout_.accelerometer_noise) *

@@ -71,6 +71,7 @@ class Simulator {
   void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
   Theta drift_of(const Timeline& timeline, std::size_t i, const Theta& drawn);
   void measure(const Timeline& timeline, std::size_t i, Simulation& out);
+  const Vec3* turned_between(const Timeline& timeline, std::size_t i, const Vec3* phi);
   std::size_t segment_end(const Timeline& timeline, std::size_t first, std::size_t end,
                           bool noisy) const;
   double wrong_by(std::size_t channel, const Theta& theta);
@@ -82,7 +83,8 @@ class Simulator {
   OwnTruthSteps own_steps_;
   Mat3X disturbance_;
   std::array<std::optional<Stream>, 6> sensor_noise_, process_noise_, wrong_samples_;
-  std::array<std::optional<Stream>, 3> drift_level_;
+  std::array<std::optional<Stream>, 3> drift_level_, between_ends_;
+  std::vector<Vec3> phi_between_;  ///< of an interval, as its mean specific force feels it
   std::array<double, 3> level_{};  ///< of a bistable drift, +-1
   MemoryRecord memory_;
   Theta theta_;  ///< with the drift's random walk

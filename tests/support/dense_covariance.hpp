@@ -15,7 +15,8 @@ namespace drift::test {
 ///
 /// Time stands still but at the beginning of a recording and at the ends of half intervals.
 /// Accelerometer rows are read at the end of the first half, gimbal rows at the end of the second;
-/// what drives the platform acts through each half with the value it had when that began. Nothing
+/// what drives the platform acts through each half with the value it had when that began, but for
+/// white rate noise. Nothing
 /// but the parameters ties one recording to another.
 class DenseCovariance {
  public:
@@ -65,11 +66,27 @@ class DenseCovariance {
     add(n_.drift_random_walk * driven(drift), kernel(forever_));
     add(n_.markov_drift * driven(drift), kernel(n_.markov_tau));
     add(n_.caging_drift * driven(drift), same_chain());
-    add(n_.angle_random_walk * driven([&](std::size_t half) {
-          return Vec3(drift(half) / std::sqrt(p_.drives[half / 2].length));
-        }),
-        same_interval());
+    add_angle_random_walk(axis);
     add(n_.acc_markov / p_.acc_sigma * read(axis), kernel(n_.acc_tau));
+  }
+  /// White rate noise, of which accelerometer rows feel the mean over an interval of what it has
+  /// turned, gimbal rows its end: of a Wiener process W over unit time var(W) = 1, cov(W, mean) =
+  /// 1 / 2, var(mean) = 1 / 3.
+  void add_angle_random_walk(int axis) {
+    const auto passed = [&](Eigen::Index row, std::size_t i) { return half_of(row) > 2 * i; };
+    for (Eigen::Index k = 0; k < V_.rows(); ++k)
+      for (Eigen::Index l = 0; l < V_.rows(); ++l) {
+        if (caged_[half_of(k)] != caged_[half_of(l)]) continue;
+        const std::size_t last = std::min(half_of(k), half_of(l)) / 2;
+        for (std::size_t i = caged_[half_of(k)] / 2; i <= last; ++i) {
+          const double share = passed(k, i) && passed(l, i)   ? 1.0
+                               : passed(k, i) || passed(l, i) ? 1.0 / 2.0
+                                                              : 1.0 / 3.0;
+          const Vec3 turn = n_.gyros[axis] * n_.angle_random_walk * p_.drives[i].per_rate.col(axis);
+          V_(k, l) +=
+              share / p_.drives[i].length * p_.psi.row(k).dot(turn) * p_.psi.row(l).dot(turn);
+        }
+      }
   }
   void add_lone() {
     const inference::LoneInput& lone = n_.lone;
@@ -109,15 +126,6 @@ class DenseCovariance {
         K(a, b) = recording_[a] != recording_[b] ? 0.0
                   : std::isinf(tau)              ? std::min(time_[a], time_[b])
                                                  : std::exp(-std::abs(time_[a] - time_[b]) / tau);
-    return K;
-  }
-  /// A value for each interval, independent of all others.
-  MatX same_interval() const {
-    MatX K = MatX::Zero(times(), times());
-    for (std::size_t a = 0; a < begin_.size(); ++a)
-      for (std::size_t b = 0; b < begin_.size(); ++b)
-        if (a / 2 == b / 2)
-          K(static_cast<Eigen::Index>(begin_[a]), static_cast<Eigen::Index>(begin_[b])) = 1.0;
     return K;
   }
   /// A value for each chain.

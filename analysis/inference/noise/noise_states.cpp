@@ -1,6 +1,7 @@
 #include "analysis/inference/noise/noise_states.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace drift::inference {
 
@@ -11,14 +12,15 @@ NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive
   const auto others = [](int state) { return state - 3; };
   const Mat3 part = 0.5 * d.per_rate * n.gyros.asDiagonal();
   if (s.white >= 0) {
-    const Mat3 kick = part * (n.angle_random_walk / std::sqrt(d.length));
+    const Mat3 half = part * (n.angle_random_walk / std::sqrt(d.length));  // of a value held
     if (first_half) {  // a new value, which acts at once
       step.decay.segment<3>(others(s.white)).setZero();
       step.variance.segment<3>(others(s.white)).setOnes();
-      step.kick = kick;
+      step.kick = 2.0 * std::numbers::inv_sqrt3 * half;
       step.kicked = true;
     } else {
-      step.drive.middleCols<3>(others(s.white)) = kick;
+      step.drive.middleCols<3>(others(s.white)) = std::numbers::inv_sqrt3 * half;
+      step.anew = half;
     }
   }
   if (s.walk >= 0) {

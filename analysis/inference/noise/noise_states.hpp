@@ -38,10 +38,11 @@ struct NoiseStep {
   OverOthers variance = OverOthers::Zero();  ///< that each of the others gains
   bool kicked = false;  ///< a new value of the white rate noise, the first three of the others,
   Mat3 kick = Mat3::Zero();  ///< which acts on the attitude at once, by this
+  Mat3 anew = Mat3::Zero();  ///< by a value that nothing before it feels, on the attitude
 };
 
-/// States are in units of their own sigma. White rate noise is constant within an interval, as the
-/// simulator has it: the accelerometers' mean sees half of what the gimbals see at the end.
+/// States are in units of their own sigma. Of white rate noise the accelerometers feel the mean of
+/// an interval, the gimbals its end (HeldNoise).
 NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
                   bool first_half);
 

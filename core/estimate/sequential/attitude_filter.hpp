@@ -11,7 +11,7 @@ namespace drift {
 /// A Kalman filter of what moves, whose innovations are linear in what stands still.
 ///
 /// States: 3 attitude errors and, where drift walks, as many further ones, what the walk has added
-/// to some parameters; then 3 of the gyros' noise, where it is held through a sample (HeldNoise).
+/// to some parameters; then 3 of the gyros' noise in a sample, where there is any (HeldNoise).
 /// Their estimate hangs on the static parameters x (deviations from a
 /// reference), z = a + U x, and gains depend on the noise alone; so every measurement gives
 /// whitened rows [t | e] of a static least squares problem, |t x - e|^2, process noise and new
@@ -37,6 +37,8 @@ class AttitudeFilter {
   void hold(double variance);
   /// psi <- Phi psi + G x + N n. G: as wide as whole lanes, or less.
   void propagate(const Mat3& Phi, const Rows3& G, const Mat3& N);
+  /// The attitude gains a covariance that nothing before it feels [rad^2].
+  void disturb(const Mat3& covariance) { P_.topLeftCorner<3, 3>() += covariance; }
   /// Adds variance to the walk of walking parameter number k.
   void walk(std::size_t k, double variance) {
     const auto i = static_cast<Eigen::Index>(3 + k);

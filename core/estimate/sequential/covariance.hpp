@@ -35,6 +35,8 @@ class Covariance {
   void hold(double variance);
   /// psi <- psi + N n, after propagate().
   void drive(const Mat3& N);
+  /// The attitude gains a covariance that nothing before it feels [rad^2].
+  void disturb(const Mat3& covariance) { P_aa_ += covariance; }
 
   /// Adds variance to one parameter (drift random walk).
   void add_variance(std::size_t parameter, double variance) {

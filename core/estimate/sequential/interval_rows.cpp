@@ -101,10 +101,11 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   const std::size_t last = interval.node_count() - 1;
   const auto middle = static_cast<std::size_t>(interval.substeps);
   const double arw = filter_.noise.angle_random_walk;
+  const double variance = arw * arw / interval.length();  // [rad^2/s^2]
   HeldNoise held;
   if (arw > 0.0) {
     held = held_noise(interval, timeline_);
-    attitude_.hold(arw * arw / interval.length());
+    attitude_.hold(variance);
   }
   for (std::size_t k = 0; k < attitude_.walking().size(); ++k) {
     const std::size_t state = attitude_.walking()[k];
@@ -127,6 +128,7 @@ IntervalRows::Taken IntervalRows::take(std::size_t i, const Vec3& acc, const Vec
   rest_G_ = sensitivity_.G[last];
   sum_of_products<Sum::onto>({-Phi_rest}, {&sensitivity_.G[middle]}, rest_G_);
   attitude_.propagate(Phi_rest, rest_G_, held.from_middle);
+  if (arw > 0.0) attitude_.disturb(variance * held.anew * held.anew.transpose());
   if (readout_.gimbals && gimbal.array().isFinite().any()) {
     const GimbalPrediction predicted =
         interval.rest

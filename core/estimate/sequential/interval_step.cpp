@@ -62,7 +62,8 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   const bool holds = arw > 0.0 && !interval.rest;
   held_ = holds ? held_noise(interval, timeline_) : HeldNoise{};
   noise_.setZero();
-  if (holds) P_.hold(arw * arw / interval.length());
+  const double variance = arw * arw / interval.length();  // [rad^2/s^2]
+  if (holds) P_.hold(variance);
   const Mat3& Phi_m = sensitivity_.Phi[middle];
   predict(Phi_m, sensitivity_.G[middle], held_.to_middle);
   if (readout_.accelerometers && acc.array().isFinite().any()) take_accelerometers(interval, acc);
@@ -72,9 +73,11 @@ IntervalStep::Taken IntervalStep::process(std::size_t i, const Vec3& acc, const 
   rest_G_ = sensitivity_.G[last];
   rest_G_.noalias() -= Phi_rest * sensitivity_.G[middle];
   predict(Phi_rest, rest_G_, held_.from_middle);
-  if (holds)
+  if (holds) {
+    P_.disturb(variance * held_.anew * held_.anew.transpose());
     nodes_[last] =
         turned(timeline_.nodes[interval.last_node()], held_.from_middle * noise_, nodes_[last]);
+  }
   if (readout_.gimbals && gimbal.array().isFinite().any()) take_gimbals(interval, gimbal);
   if (status_ != EstimateStatus::ok) return taken_;
 

@@ -1,7 +1,9 @@
-// Noise that the simulator holds through a sample: against the equations of motion.
+// White noise of the gyros within a sample: against the equations of motion and against its law.
 #include "core/sim/held_noise.hpp"
 
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 #include "core/sim/instruments.hpp"
 #include "core/sim/platform_ode.hpp"
@@ -62,12 +64,30 @@ TEST(HeldNoise, IsTheDerivativeOfTheEquationsOfMotion) {
                  end = (plus.end - minus.end) / (2.0 * step),
                  acc = (plus.acc - minus.acc) / (2.0 * step);
       // Of second order in the angle, 1e-3; the rule to the middle of a pair of steps of 0.05 rad.
-      EXPECT_LT((held.to_middle.col(a) - middle).norm(), 1e-5 * T) << i;
-      EXPECT_LT((held.to_middle.col(a) + held.from_middle.col(a) - end).norm(), 1e-5 * T) << i;
-      EXPECT_LT((held.beside.col(a) + force * middle - acc).norm(), 1e-5 * T) << i;
+      const double of_held = 0.5 * std::numbers::sqrt3;  // share of n in a value that is held
+      EXPECT_LT((of_held * held.to_middle.col(a) - middle).norm(), 1e-5 * T) << i;
+      EXPECT_LT((held.to_middle.col(a) + held.from_middle.col(a) - of_held * end).norm(), 1e-5 * T)
+          << i;
+      EXPECT_LT((held.anew.col(a) - 0.5 * end).norm(), 1e-5 * T) << i;
+      EXPECT_LT((of_held * held.beside.col(a) + force * middle - acc).norm(), 1e-5 * T) << i;
     }
   }
   EXPECT_EQ(slews, 3);
+}
+
+/// Of a platform that stands in inertial space, the covariances of a Wiener process with its mean.
+TEST(HeldNoise, IsThatOfWhiteNoise) {
+  const Timeline timeline = preset_timeline("six", CommandLaw::free, 600.0, 60.0);
+  const HeldNoise held = held_noise(timeline.intervals[2], timeline);
+  const double T = timeline.intervals[2].length();
+  // For q = 1 the values have the variance 1 / T. The platform turns by no more than its drift.
+  const Mat3 mean = held.to_middle * held.to_middle.transpose() / T;
+  const Mat3 end = held.to_middle + held.from_middle;
+  const Mat3 both = held.to_middle * end.transpose() / T;
+  const Mat3 at_end = (end * end.transpose() + held.anew * held.anew.transpose()) / T;
+  EXPECT_LT((mean - T / 3.0 * Mat3::Identity()).norm(), 1e-9 * T);
+  EXPECT_LT((both - T / 2.0 * Mat3::Identity()).norm(), 1e-9 * T);
+  EXPECT_LT((at_end - T * Mat3::Identity()).norm(), 1e-9 * T);
 }
 
 TEST(HeldNoise, IsNothingAtRestOnTheEarth) {
