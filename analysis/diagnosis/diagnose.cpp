@@ -180,6 +180,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   const bool alarm = judged.verdict != Verdict::consistent;
   NoiseFound noise = noise_found(best && alarm ? best->after : nominal, fitted.spikes);
   if (!alarm && found.noise_alone) noise.findings = found.noise_alone->findings;
+  const bool with_room = !alarm && world.with_room;
+  if (with_room) noise.findings = world.with_room->noise;
   CausesFound causes =
       judged.verdict == Verdict::consistent ? CausesFound{} : causes_of(nominal, found);
   for (std::size_t k = 0; k < member_gains.size() && k < causes.causes.size(); ++k)
@@ -229,7 +231,8 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.nominal = nominal_filter;
   d.patched = best && alarm
                   ? started_where_found(with_room_for_causes(best->filter, d.causes), d.causes)
-                  : as_believed;
+              : with_room ? world.with_room->filter
+                          : as_believed;
   d.has_patch = best != nullptr && alarm;
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);

@@ -201,12 +201,6 @@ void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   r.after.forget_signatures();
 }
 
-/// Whether a refit is to be preferred to another one of the same causes.
-bool better(const Refit& a, const Refit& b) {
-  if (a.tolerable() != b.tolerable()) return a.tolerable();
-  return a.log_bayes - std::max(0.0, a.excess) > b.log_bayes - std::max(0.0, b.excess);
-}
-
 }  // namespace
 
 std::vector<std::size_t> settings_beyond_grid(const inference::CandidateSet& set, const Refit& r) {
@@ -248,6 +242,11 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   if (room && out.excess > 0.0)
     look_at_rest(out, examine(room->filter, test, causes.fit, out.after.noise, &out.after), beside);
   judge(out, causes, beside);
+  if (nominal.noise.of_differences && kinds == NoiseKinds::white && !out.after.gross &&
+      !out.adequate()) {
+    Refit driven = refit(nominal, test, choices, thresholds, NoiseKinds::driving_too, sizes);
+    if (driven.better_than(out)) return driven;
+  }
   if (sizes == Sizes::of_library || !room || room->farthest <= FitLimits::beyond_prior) return out;
   // Beyond what its prior makes credible at all a size may be what the test says.
   const BatchResult roomy =
@@ -255,7 +254,7 @@ Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<C
   Refit as_found = scored(choices, room->filter, causes.with_closure_sigma(roomy), beside);
   as_found.as_found = true;
   judge(as_found, causes, beside);
-  return better(as_found, out) ? as_found : out;
+  return as_found.better_than(out) ? as_found : out;
 }
 
 void give_settings_room(Refit& r, const Fitted& nominal, const MeasuredTest& test,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/chance_thresholds.hpp"
 #include "analysis/search/scores/remainder.hpp"
@@ -24,6 +26,11 @@ struct Refit {
   bool tolerable() const { return excess <= inference::WeighLimits::tolerable; }
   double log_bayes = 0.0;   ///< log evidence against the nominal model, both with their own noise
   bool sign_agrees = true;  ///< amplitudes came out with the sign the score predicted
+  /// Whether it is to be preferred to another one of the same causes.
+  bool better_than(const Refit& other) const {
+    if (tolerable() != other.tolerable()) return tolerable();
+    return log_bayes - std::max(0.0, excess) > other.log_bayes - std::max(0.0, other.excess);
+  }
 };
 
 /// The noise that is looked for beside a cause: such as drives the platform if the nominal model
@@ -31,7 +38,9 @@ struct Refit {
 NoiseKinds noise_beside(const Fitted& nominal);
 
 /// Fits causes (fit_causes.hpp) and scores everything again. Of sizes as the library expects and,
-/// where one is far beyond it, as found, what has more evidence.
+/// where one is far beyond it, as found, what has more evidence. Where the nominal misfit was too
+/// gross for its noise to be looked for, what drives the platform is looked for beside causes that
+/// leave some of it.
 Refit refit(const Fitted& nominal, const MeasuredTest& test, const std::vector<Choice>& choices,
             const ChanceThresholds& thresholds, NoiseKinds kinds, Sizes sizes);
 

@@ -22,6 +22,11 @@ bool may_be_wrong_priors(const FilterSpec& nominal, const search::Search& found,
                                !beyond_prior(nominal, found.nominal, alpha));
 }
 
+/// The noise where nothing but noise is there.
+std::vector<inference::NoiseFinding> noise_alone_in(const search::Search& found) {
+  return found.noise_alone ? found.noise_alone->findings : found.nominal.noise.findings;
+}
+
 std::vector<std::size_t> parameters_of(const remark::BeyondPrior& beyond) {
   std::vector<std::size_t> all;
   for (const remark::BeyondPrior::Parameter& p : beyond.parameters) all.push_back(p.estimate.param);
@@ -87,14 +92,18 @@ Believed believed(const FilterSpec& nominal, const MeasuredTest& test, const Bat
   std::optional<WrongPriors> wrong;
   if (may_be_wrong_priors(nominal, found, posterior, options.alpha))
     wrong = wrong_priors(nominal, test, fit, found, all_right, options);
-  Believed out{nominal,      false, std::move(found), std::move(posterior), std::nullopt,
-               std::nullopt, {}};
+  Believed out{nominal,      false,        std::move(found), std::move(posterior),
+               std::nullopt, std::nullopt, std::nullopt,     {}};
   if (!wrong) return out;
 
   right.wrong_priors = search::log_sum(wrong->evidence.declared, wrong->evidence.estimated);
   if (wrong->beyond.explains) {
     out.posterior = search::posterior_of(right);
-    if (out.posterior.wrong_priors > worth_saying) out.instead = std::move(wrong->beyond);
+    if (out.posterior.wrong_priors <= worth_saying) return out;
+    out.instead = std::move(wrong->beyond);
+    out.instead->noise_beside = out.posterior.wrong_priors > out.posterior.noise_only;
+    if (out.instead->noise_beside)
+      out.with_room = {std::move(wrong->filter), noise_alone_in(wrong->found)};
     return out;
   }
   // Where something is missing that no effect describes, either way, the study is taken at its

@@ -16,6 +16,12 @@ struct Believed {
   search::Posterior posterior;
   /// Priors that may be wrong where nothing else is (`explains`).
   std::optional<remark::BeyondPrior> instead;
+  /// With room for those, where that is more probable than noise alone (`noise_beside`).
+  struct WithRoom {
+    FilterSpec filter;
+    std::vector<inference::NoiseFinding> noise;
+  };
+  std::optional<WithRoom> with_room;
   std::optional<remark::OtherPriors> other;  ///< the other way round, where it is credible
   Probabilities other_way;                   ///< its parts, Posterior::other_priors together
 };

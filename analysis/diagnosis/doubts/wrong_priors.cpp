@@ -13,13 +13,12 @@
 namespace drift::diagnosis {
 namespace {
 
-/// What a fit says where its noise drives the platform: the batch fit itself knows no drift that
+/// What a fit says under a noise that drives the platform: the batch fit itself knows no drift that
 /// varies.
-EstimateResult under_its_noise(const search::Fitted& f) {
-  EstimateResult out = f.fit.estimate;
-  if (!f.noise.model.driven()) return out;
-  const Layout layout = make_layout(f.filter);
-  const inference::Projector::Fit fit = f.projector->fit();
+EstimateResult told_by(const inference::Projector& projector, const FilterSpec& filter,
+                       EstimateResult out) {
+  const Layout layout = make_layout(filter);
+  const inference::Projector::Fit fit = projector.fit();
   for (std::size_t k = 0; k < layout.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     ParameterEstimate& p = out.parameters[k];
@@ -27,6 +26,21 @@ EstimateResult under_its_noise(const search::Fitted& f) {
     p.sigma = layout.sigma[i] * std::sqrt(fit.covariance(i, i));
   }
   return out;
+}
+
+EstimateResult under_its_noise(const search::Fitted& f) {
+  if (!f.noise.model.driven()) return f.fit.estimate;
+  return told_by(*f.projector, f.filter, f.fit.estimate);
+}
+
+/// The same of a fit that was not examined, its noise estimated.
+EstimateResult under_its_noise(const FilterSpec& filter, const MeasuredTest& test,
+                               const BatchResult& fit) {
+  const inference::LinearProblem problem = inference::linear_problem(filter, test, fit, {});
+  const inference::NoiseEstimate noise =
+      inference::estimate_noise(problem, search::declared_noise(filter));
+  if (!noise.model.driven()) return fit.estimate;
+  return told_by(inference::Projector(problem, noise.model), filter, fit.estimate);
 }
 
 /// Parameters of the nominal model that an estimate has too far from its priors, whatever priors it
@@ -64,6 +78,27 @@ struct Widened {
   remark::BeyondPrior beyond;
 };
 
+/// Of priors that were found wrong as if the noise were as declared, those that still are under the
+/// noise that is left: what is no error of a model that has room bends parameters that are all
+/// right. Nothing if none is.
+std::optional<Widened> under_noise(Widened out, const FilterSpec& nominal, const FilterSpec& model,
+                                   const MeasuredTest& test, double alpha) {
+  while (true) {
+    const std::size_t before = out.beyond.parameters.size();
+    remark::BeyondPrior left = far_from(nominal, under_its_noise(out.filter, test, out.fit), alpha);
+    std::erase_if(left.parameters, [&](const remark::BeyondPrior::Parameter& p) {
+      return std::ranges::none_of(out.beyond.parameters, [&](const auto& of) {
+        return of.estimate.param == p.estimate.param;
+      });
+    });
+    out.beyond = std::move(left);
+    if (out.beyond.parameters.empty()) return std::nullopt;
+    if (out.beyond.parameters.size() == before) return out;
+    out.filter = with_room(model, out.beyond);
+    out.fit = fit_batch_from(out.filter, test, theta_of(out.filter, out.fit), out.fit.psi0_l);
+  }
+}
+
 /// A model with priors as wide as the data take the nominal parameters from their means. Nothing if
 /// none is far off. model: the nominal one, or that with causes. fit: of it.
 std::optional<Widened> widened(const FilterSpec& nominal, const FilterSpec& model,
@@ -84,7 +119,7 @@ std::optional<Widened> widened(const FilterSpec& nominal, const FilterSpec& mode
     out.filter = wider;
     out.fit = fit_batch_from(out.filter, test, theta_of(out.filter, out.fit), out.fit.psi0_l);
   }
-  return out;
+  return under_noise(std::move(out), nominal, model, test, alpha);
 }
 
 /// The nominal model with room for what an effect leaves beyond its prior, where that is less than

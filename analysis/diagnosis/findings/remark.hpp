@@ -95,6 +95,9 @@ struct BeyondPrior {
   /// Something stands out, and with priors as wide as these parameters lie from theirs nothing.
   bool explains = false;
   bool taken = false;  ///< what was found takes these priors for wrong: it has room for them
+  /// The noise that is told is what is there with that room, as is the patched model; else that
+  /// with all priors right.
+  bool noise_beside = false;
   const Parameter& farthest() const {
     return *std::ranges::max_element(parameters, {}, &Parameter::sigmas);
   }

@@ -29,6 +29,7 @@ NoiseEstimate noise_of_differences(const MeasuredRows& rows, const VecX& residua
   }
   constexpr double median_of_square = 0.4549;  // of a standard normal
   NoiseEstimate out;
+  out.of_differences = true;
   for (const int kind : {0, 1}) {
     const auto& s = squares[kind];
     if (s.size() < 10 || (kind == 0 ? rows.acc_rounded : rows.gimbals_rounded)) continue;

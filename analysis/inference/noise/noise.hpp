@@ -18,6 +18,8 @@ struct NoiseEstimate {
   /// A component besides white noise was needed that is not declared, or more of it than is: it
   /// may have been an effect.
   bool driven = false;
+  /// Read off differences of samples (noise_of_differences()): what drives was not looked for.
+  bool of_differences = false;
   /// What must be added to half of that for the log evidence of this noise: its sigmas and time
   /// constants are known to their usual sizes only (Laplace's method). With the prior of which
   /// components there are (NoisePrior).

@@ -6,6 +6,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/alternative_words.hpp"
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/diagnosis/verdict_openings.hpp"
 #include "analysis/report/identify/clock_words.hpp"
@@ -83,6 +84,11 @@ std::string wrong_priors_text(const Diagnosis& d) {
   return fmt::format("{}, and {} cannot tell which: either {} (probability {}: {}){}.", missing,
                      positions_at_hand(d), priors, decimal_text(d.probabilities.wrong_priors, 2),
                      nothing_left, words);
+}
+
+std::string beside_priors_text(const Diagnosis& d, const std::string& noise) {
+  if (d.verdict != Verdict::consistent || noise.empty()) return "";
+  return remark_in<remark::BeyondPrior>(d)->noise_beside ? noise : " Or else:" + noise;
 }
 
 std::string other_priors_text(const remark::OtherPriors& r, Instrument instrument) {

@@ -19,6 +19,9 @@ std::string beyond_prior_text(const diagnosis::remark::BeyondPrior& beyond);
 std::string priors_at_fault_text(const diagnosis::Diagnosis& diagnosis);
 /// The verdict's sentence where they are told, with the causes that it may be instead.
 std::string wrong_priors_text(const diagnosis::Diagnosis& diagnosis);
+/// What follows it of the noise, which is there besides, or in the place of wrong priors. noise: as
+/// it is told, empty where it is as declared.
+std::string beside_priors_text(const diagnosis::Diagnosis& diagnosis, const std::string& noise);
 /// "the prior of K3_x", where the causes are told with room in it; else empty.
 std::string priors_taken_text(const diagnosis::Diagnosis& diagnosis);
 /// "the prior of eta_x is wrong, and hang-off of the platform (hang_off.outer) is missing".

@@ -76,7 +76,9 @@ std::string patched_file(const mc::Study& study, const Diagnosis& d) {
   mc::Study there = study;
   if (d.field && d.field->another()) there.text = study_with_field(there, d.field->field_l);
   if (declares_noise(d)) there.text = study_with_noise(there, d.noise);
-  return out + (d.has_patch ? patched_study(there, d.patched) : there.text);
+  const auto* beyond = remark_in<remark::BeyondPrior>(d);
+  const bool has_room = beyond != nullptr && beyond->noise_beside;
+  return out + (d.has_patch || has_room ? patched_study(there, d.patched) : there.text);
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
   if (const std::string priors = wrong_priors_text(d); !priors.empty())
-    return priors + (d.verdict == Verdict::consistent && !noise.empty() ? " Or else:" + noise : "");
+    return priors + beside_priors_text(d, noise);
   switch (d.verdict) {
     case Verdict::consistent:
       return fmt::format("{}{}; {}no missing physics is found (noise alone {}).{}{}", agrees,
