@@ -40,14 +40,22 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   out.filter.coupling = *facts(nominal.filter.coupling).other;
   const auto here = theta_of(nominal.filter, nominal.fit);
   const double here_log2 = nominal.log_likelihood2() + 2.0 * nominal.log_gain_of_misalignments();
+  const auto gain_under = [&](const inference::LinearProblem& problem,
+                              const inference::NoiseModel& noise) {
+    const inference::Projector there(problem, noise);
+    return there.marginal().log_likelihood2() +
+           2.0 * inference::log_gain_of_misalignments(make_layout(out.filter), there) - here_log2;
+  };
   for (const Theta& start : {here, make_layout(out.filter).theta}) {
     BatchResult fit = fit_batch_from(out.filter, test, start, nominal.fit.psi0_l);
     inference::LinearProblem problem = inference::linear_problem(out.filter, test, fit, {});
     problem.weight = nominal.problem.weight;
-    const inference::Projector there(problem, nominal.noise.model);
-    const double gain = there.marginal().log_likelihood2() +
-                        2.0 * inference::log_gain_of_misalignments(make_layout(out.filter), there) -
-                        here_log2;
+    double gain = gain_under(problem, nominal.noise.model);
+    if (nominal.noise.driven) {  // by what a wrong equation leaves, perhaps
+      const auto own = inference::estimate_noise(problem, declared_noise(out.filter));
+      gain = std::max(
+          gain, gain_under(problem, own.model) + 2.0 * (own.log_price - nominal.noise.log_price));
+    }
     if (gain > out.gain) {
       out.gain = gain;
       out.fit = std::move(fit);

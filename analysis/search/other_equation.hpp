@@ -13,7 +13,10 @@ struct Search;
 struct OtherEquation {
   FilterSpec filter;
   BatchResult fit;
-  double gain = 0.0;  ///< of twice the log likelihood, under the noise of the nominal model
+  /// Of twice the log likelihood, under the noise of the nominal model; where that was found to
+  /// drive the platform, of twice the log evidence if its own noise makes that more. Either way
+  /// more than T has a chance of exp(-T / 2) at most where the nominal one holds.
+  double gain = 0.0;
 };
 
 /// Fitted from the nominal fit and from the prior; empty for couplings that have no other.
