@@ -6,6 +6,7 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/alternative_words.hpp"
+#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/field_words.hpp"
 #include "analysis/report/diagnosis/verdict_openings.hpp"
 #include "analysis/report/identify/clock_words.hpp"
