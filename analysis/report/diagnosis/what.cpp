@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 

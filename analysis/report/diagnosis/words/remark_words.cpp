@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
-#include "analysis/report/diagnosis/doubts.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/doubts.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
