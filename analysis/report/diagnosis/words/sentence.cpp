@@ -215,8 +215,8 @@ std::string absent_text(const std::vector<std::string>& absent) {
 
 /// What would explain the test at the declared latitude, unless the odds are against it.
 std::string rival_text(const Diagnosis& d) {
-  constexpr double decided = 19.0;  // to 1: a probability of 0.95
-  if (d.causes.empty() || d.site_doubt->clock || d.site_doubt->odds > decided ||
+  if (d.causes.empty() || d.site_doubt->clock ||
+      d.site_doubt->odds > inference::RemarkLimits::decided ||
       d.causes.front().term == "latitude_error")
     return "";
   return fmt::format(" If a map confirms the latitude of [site], it is {}.",
