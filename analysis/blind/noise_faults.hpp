@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "analysis/blind/world.hpp"
 #include "core/base/rng.hpp"
@@ -9,22 +10,13 @@
 
 namespace drift::blind {
 
-inline constexpr std::size_t num_noise_faults = 7;
+/// Makes the noise of a world other than declared, without any further physics, and says how: in
+/// the kind whose turn it is. Without three cagings none differs from the others in its drift: it
+/// is correlated then.
+HiddenEffect spoil_noise(std::size_t turn, World& world, Stream& stream);
 
-/// Makes the noise of a world other than declared, without any further physics, and says how:
-///
-///   noise_scale          all sensors 0.75 to 1.6 times as noisy as declared
-///   angle_random_walk    3e-4 to 3e-3 deg/sqrt(h)
-///   drift_random_walk    1e-3 to 5e-3 deg/h/sqrt(h)
-///   markov_drift         2e-3 to 1e-2 deg/h, correlated over 10 to 60 min
-///   coloured_accelerometer   0.5 to 1.5 declared sigmas, correlated over 3 to 15 min
-///   caging_drift         3e-3 to 3e-2 deg/h, another drift after each caging; without three
-///   cagings
-///                        markov_drift
-///   outliers             0.1 to 1 % of the samples wrong by 10 sigma
-///
-/// Sizes: physics.md 4, entries 8 to 11, 50, and 3.4.
-HiddenEffect spoil_noise(std::size_t kind, World& world, Stream& stream);
+/// The turn of a kind, "caging_drift".
+std::size_t noise_fault(std::string_view term);
 
 /// The timeline as it is recorded with covariates that have noise of their own, white from row to
 /// row: 0.1 to 0.5 of what a number varies by (rms), 1 to 5 % of a vector. A function of the seed,

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <utility>
 
-#include "analysis/report/diagnosis/verdict_openings.hpp"
+#include "analysis/report/diagnosis/words/verdict_openings.hpp"
 
 namespace drift::cli {
 namespace {

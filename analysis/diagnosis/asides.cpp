@@ -101,7 +101,7 @@ std::optional<remark::StrongestLeft> strongest_left(const search::Fitted& nomina
 }
 
 std::optional<remark::LeftNotWhite> left_not_white(const Whiteness& w) {
-  if (!(w.ljung_box_p_after < Whiteness::least_p)) return std::nullopt;
+  if (!(w.ljung_box_p_after < inference::RemarkLimits::whiteness_p)) return std::nullopt;
   return remark::LeftNotWhite{w.ljung_box_p_before, w.ljung_box_p_after};
 }
 

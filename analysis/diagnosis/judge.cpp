@@ -11,10 +11,6 @@
 namespace drift::diagnosis {
 namespace {
 
-/// Twice as large noise, where some of it is known beforehand (rounding) and not estimated; and the
-/// odds at which one more factor of noise is taken for none.
-constexpr double far_off = 4.0, log_far_likelier = 13.8;  // [of chi-square per row], log of 10^6
-
 /// How much likelier (log) the rows are with a factor of noise more than was found, less what one
 /// more number costs. Of n rows with a chi-square of n x the best factor is x, and gains
 /// n (x - 1 - log x) / 2. Infinite where the likelihood is not a number.
@@ -23,7 +19,7 @@ double log_gain_of_more_noise(const inference::Marginal& m) {
   if (!std::isfinite(m.log_likelihood2())) return std::numeric_limits<double>::infinity();
   const auto n = static_cast<double>(m.rows);
   const double x = m.chi2 / n;
-  if (x < far_off) return 0.0;
+  if (x < inference::NoiseLimits::far_off) return 0.0;
   return 0.5 * n * (x - 1.0 - std::log(x)) + inference::NoisePrior::log_not_as_declared() -
          0.5 * std::log(n);
 }
@@ -60,7 +56,7 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   if (!found.significant) {
     out.one_gyro = noise_of_one_axis(nominal);
     if (const double gain = log_gain_of_more_noise(nominal.projector->marginal());
-        gain > log_far_likelier)
+        gain > inference::NoiseLimits::far_likelier)
       out.of_no_noise = std::exp(-gain);
     if (out.one_gyro || out.of_no_noise) out.verdict = Verdict::unexplained;
     return out;

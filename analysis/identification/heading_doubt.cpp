@@ -21,8 +21,7 @@ using inference::FitLimits;
 using inference::SiteLimits;
 
 constexpr double right_angle = 90.0 * detail::deg, half_right_angle = 45.0 * detail::deg;
-constexpr double other_turns = 7.0;      // than none
-constexpr double rare_studies = 1000.0;  // one of which has wrong headings
+constexpr double right_studies = 1.0 / SiteLimits::another;  // for one with wrong headings
 
 /// Positions whose attitude is carried along, so that they can only be turned together.
 using Caging = std::vector<std::size_t>;
@@ -127,7 +126,8 @@ void fit(Fit& f, mc::Study study, std::vector<Recording> recordings, const Filte
 /// Log of the probability of the plan as it is, after a fit that is so much better.
 double log_chance(const Fit& before, const Fit& after) {
   const double gain = (before.cost - after.cost) / std::max(1.0, after.per_dof());  // 2 log L
-  return std::log(rare_studies) + after.choices * std::log(other_turns) - 0.5 * gain;
+  return std::log(right_studies) + after.choices * std::log(SiteLimits::other_headings) -
+         0.5 * gain;
 }
 
 }  // namespace
@@ -180,7 +180,7 @@ std::optional<HeadingDoubt> heading_doubt(const mc::Study& study,
       tried.begin() + 1, tried.end(),
       [&](const Fit& a, const Fit& b) { return log_chance(before, a) < log_chance(before, b); });
   const double chance = log_chance(before, best);
-  if (!(chance < std::log(rare_studies) - 0.5 * FitLimits::mirrored)) return std::nullopt;
+  if (!(chance < std::log(right_studies) - 0.5 * FitLimits::mirrored)) return std::nullopt;
   HeadingDoubt doubt{.turned = {},
                      .positions = best.positions,
                      .chi2_per_dof_before = before.per_dof(),

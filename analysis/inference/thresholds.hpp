@@ -3,9 +3,13 @@
 #include <cmath>
 #include <cstddef>
 
-/// Every number that decides what a user is told of a recording, by `diagnose` and by `identify`,
-/// in one place; those by which recording and plan are looked over are in
-/// analysis/preparation/input_thresholds.hpp.
+#include "analysis/inference/fit_thresholds.hpp"
+
+/// Every number that decides what a user is told of a recording, by `diagnose` and by `identify`:
+/// here those of causes and noise, in fit_thresholds.hpp those of a fit as such. Those by which
+/// recording and plan are looked over are in analysis/preparation/input_thresholds.hpp, whether
+/// starts agree is said by core/estimate/start_consistency.hpp, and what is said of gyros on a case
+/// alone stands in analysis/strapdown.
 ///
 /// Each says what it means, in which unit, and the probability or derivation it stands for; where
 /// there is none it says "tuned". Grids, steps and counts of iterations stay beside the algorithms
@@ -109,6 +113,10 @@ struct NoiseLimits {
   /// Chi-square per degree that is an evident misfit, and the part of its excess that the other
   /// equation must take away for it not to be asked for noise. Tuned on wrong equations.
   static constexpr double evident = 1.5, other_equation = 0.8;
+  /// Chi-square per row of noise twice as large as was found, where some of it is known beforehand
+  /// (rounding) and not estimated; and the [log] odds, 10^6 to 1, at which one more factor of noise
+  /// is taken for none.
+  static constexpr double far_off = 4.0, far_likelier = 13.8;
 };
 
 /// The prior over noise, stated in diagnose.md; not tuned. Test: NoisePrior.SumsToOne.
@@ -234,6 +242,19 @@ struct RemarkLimits {
   static constexpr double detectable = 0.84;  ///< [sigma] above a threshold: found 4 times of 5
   static constexpr double outliers_p = 1e-4;  ///< said of outliers: 4 sigma of their number
   static constexpr double lone_p = 0.01;      ///< of an unknown input that would explain it
+  /// Of the whiteness of innovations: of a right model they have more in 19 of 20 recordings.
+  static constexpr double whiteness_p = 0.05;
+  /// Odds to 1 at which one of two explanations is far likelier: a probability of 0.95.
+  static constexpr double decided = 19.0;
+  /// [2 log L] up to which an equation explains a test as well as the other: odds of e to 1, not
+  /// worth a mention.
+  static constexpr double as_well = 2.0;
+  /// Family-wise p above which a candidate is no stronger than chance: one recording in 20 of right
+  /// models has one that is called stronger.
+  static constexpr double chance_p = 0.05;
+  /// [prior sigma] above which a candidate that its size alone makes less likely is named all the
+  /// same: 1 in 400 units has it.
+  static constexpr double large_size = 3.0;
   /// Part of the misfit that a rejected cause explains. Test: Thresholds.TheNearestKnown...
   static constexpr double nearest = 0.05;
   /// [2 log L] of an effect that noise may stand for, 5 sigma; per further amplitude.
@@ -242,23 +263,6 @@ struct RemarkLimits {
   /// is off by as much of itself, at most (Cauchy and Schwarz). Test: MemoryDoubt.*, MemoryGaps.*
   static constexpr double memory = 0.1;
   static constexpr double shape = 0.3;  ///< |correlation| below which a shape says nothing. Tuned
-};
-
-/// When the latitude of the study is doubted.
-struct SiteLimits {
-  /// Studies that say another latitude than the recording's, as of headings, and recordings whose
-  /// times are all too long or too short, and priors that are wrong: one of 1000. Test:
-  /// ClockDoubt.IsEvidentWhere..., WrongPrior.IsARival...
-  static constexpr double another = 1e-3;
-  /// [deg] prior of the rest that a latitude is still off when it was found without effects that
-  /// are there: wide against what they bend it by, within reach of a linear model.
-  static constexpr double bent_deg = 1.0;
-  static constexpr double survey = 3.0;  ///< [prior sigma of latitude_error] no survey is wrong by
-  static constexpr double most = 0.9;    ///< part of the misfit that another latitude takes away
-  /// Part of the strongest score that latitude_error, or what follows an assumed field, has, and
-  /// part of the misfit that the foot of the parabola promises, for latitudes to be tried. Tuned on
-  /// time.
-  static constexpr double worth_asking = 0.5, promise = 0.5;
 };
 
 /// What is advised.
@@ -271,30 +275,6 @@ struct AdviceLimits {
   /// A margin is taken that sets the closest pair so many times farther apart in no more than so
   /// many times the hours. Tuned. Test: ChooseAdditions.AMarginIsTwiceAsFar...
   static constexpr double margin = 2.0, margin_hours = 2.0;
-};
-
-/// What is said of a fit as such.
-struct FitLimits {
-  /// [sigma] of chi-square over its degrees of freedom beyond which a fit is a misfit, and below
-  /// which it has less noise than declared: 6e-7 of the right models, both sides. Tests:
-  /// FitWords.TheWordOfAFit..., FitWords.AFitWithLessNoise...
-  static constexpr double misfit = 5.0;
-  /// [prior sigma] from a prior's mean, two-sided: 6e-7 for each parameter that is of its prior,
-  /// 1e-4 for any of 200. An effect beyond it is also fitted as it is found (size_prior.hpp).
-  /// Tests: FitWords.ParametersFarFromTheirPriors..., Thresholds.ParametersFiveSigma...,
-  /// SizePrior.FarBeyond...
-  static constexpr double beyond_prior = 5.0;
-  /// Chance that the farthest of all parameters of right priors lies so far from its mean, below
-  /// which a fit has to be examined by a diagnosis: one right study in 20, as beyond the band of
-  /// its chi-square. Test: FitWords.AParameterFarFromItsPrior...
-  static constexpr double far_from_prior = 0.05;
-  /// [2 log L, scaled to a chi-square of 1 per degree of freedom] by which the mirrored latitude
-  /// must fit better to be the right one where something else misfits too: odds of e^20 against a
-  /// wrong hemisphere in one study of 1000 leave 2e-6. Test: LatitudeDoubt.TheWrongHemisphere...
-  static constexpr double mirrored = 40.0;
-  /// Chance of scale factors that differ so much by their priors, below which what moved them is
-  /// not one cause. Test: CommonScale.*
-  static constexpr double unlike_scales = 1e-3;
 };
 
 }  // namespace drift::inference

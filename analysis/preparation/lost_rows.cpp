@@ -74,7 +74,7 @@ class Gaps {
 
   /// Whether the first row of a caged position is longer than is usual.
   bool begins_long(std::size_t row) const {
-    return time_[row] - begin_of_caged(row) > 1.5 * spacing_.usual[row];
+    return RowSpacing::lost_within(time_[row] - begin_of_caged(row), spacing_.usual[row]);
   }
 
   /// [s] How long the rows of a position last whose first one is as long as is usual.

@@ -20,6 +20,7 @@
 #include "core/plan/timeline.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/rows/count_positions.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 
 namespace drift {
 namespace {
@@ -174,8 +175,9 @@ class Reader {
   /// nothing says when, unless the recording was made ready (`begins`).
   void check_change(std::size_t row, const Position& position, const Interval* before,
                     const Interval& i) {
-    constexpr double same_command = 1e-9;  // [rad/s]
-    if (!before || i.cage || !rec_.begins.empty() || i.length() <= 1.5 * position.sample) return;
+    if (!before || i.cage || !rec_.begins.empty() ||
+        !RowSpacing::lost_within(i.length(), position.sample))
+      return;
     const bool dwells = !before->slew && !i.slew;
     const bool held = (i.omega_cmd_p - before->omega_cmd_p).cwiseAbs().maxCoeff() < same_command;
     if (held && !(dwells && before->position != i.position)) return;

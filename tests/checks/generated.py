@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Documents that the program writes of itself: core/docs/effects.md, of `driftscope terms`, core/docs/study.md, of
-`driftscope schema`, and core/docs/plans.md, of `driftscope check`.
+`driftscope schema`, and core/docs/plans.md, of `driftscope check`; and how many effects README.md says that there are.
 
     tests/checks/generated.py PROGRAM             compares; exit code 1 and the difference if one is stale
     tests/checks/generated.py PROGRAM --update    writes them
@@ -12,7 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-DOCS = Path(__file__).resolve().parents[2] / "core" / "docs"
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "core" / "docs"
 EFFECTS = """# Effects
 
 Every term of the library, as `driftscope terms KEY` prints it; written by `tests/checks/generated.py`. Sections of
@@ -42,7 +43,7 @@ of the case, from North over West, that keeps the middle gimbal below 60 deg (`c
 def plans(program):
     yield PLANS
     schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True, text=True).stdout)
-    config = str(DOCS.parents[1] / "configs" / "diagnose_equation.toml")
+    config = str(ROOT / "configs" / "diagnose_equation.toml")
     for preset in schema["properties"]["plan"]["properties"]["preset"]["enum"]:
         command = [program, "check", config, "--set", f'plan.preset="{preset}"']
         lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
@@ -53,13 +54,25 @@ def plans(program):
             yield f"| {number} | {name} | {axes} | {case} | {entry} |\n"
 
 
-def effects(program):
-    def terms(*key):
-        return subprocess.run([program, "terms", *key], check=True, capture_output=True, text=True).stdout
+def terms(program, *key):
+    return subprocess.run([program, "terms", *key], check=True, capture_output=True, text=True).stdout
 
+
+def keys(program):
+    return re.findall(r"^([a-z0-9_]+) +\d+  ", terms(program), re.M)
+
+
+def effects(program):
     yield EFFECTS
-    for key in re.findall(r"^([a-z0-9_]+) +\d+  ", terms(), re.M):
-        yield f"\n## {key}\n\n" + re.sub(r"^", "    ", terms(key).rstrip("\n"), flags=re.M) + "\n"
+    for key in keys(program):
+        yield f"\n## {key}\n\n" + re.sub(r"^", "    ", terms(program, key).rstrip("\n"), flags=re.M) + "\n"
+
+
+def readme(program):
+    text, places = re.subn(r"the \d+ that are modelled", f"the {len(keys(program))} that are modelled",
+                           (ROOT / "README.md").read_text())
+    assert places == 1, "README.md says nowhere, or twice, how many effects are modelled"
+    yield text
 
 
 def rows(section, path=""):
@@ -92,16 +105,17 @@ def study(program):
 def main():
     program, update = sys.argv[1], "--update" in sys.argv[2:]
     stale = 0
-    for name, make in (("effects.md", effects), ("study.md", study), ("plans.md", plans)):
+    documents = ((DOCS / "effects.md", effects), (DOCS / "study.md", study), (DOCS / "plans.md", plans),
+                 (ROOT / "README.md", readme))
+    for path, make in documents:
         text = "".join(make(program))
-        path = DOCS / name
         if update:
             path.write_text(text)
             continue
         was = path.read_text()
         if was != text:
             stale += 1
-            sys.stdout.writelines(difflib.unified_diff(was.splitlines(True), text.splitlines(True), name, "the program's"))
+            sys.stdout.writelines(difflib.unified_diff(was.splitlines(True), text.splitlines(True), path.name, "the program's"))
     return 1 if stale else 0
 
 

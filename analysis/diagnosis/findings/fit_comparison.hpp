@@ -40,7 +40,6 @@ struct HeldOut {
 };
 
 struct Whiteness {
-  static constexpr double least_p = 0.05;  ///< white innovations have more in 19 of 20 recordings
   double ljung_box_p_before = 1.0,
          ljung_box_p_after = 1.0;  ///< calibrated by simulation (whiteness.hpp)
   double nis_per_dof_before = 1.0, nis_per_dof_after = 1.0;

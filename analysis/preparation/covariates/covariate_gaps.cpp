@@ -56,9 +56,8 @@ class Bridge {
  private:
   /// NaN as what is usual: there is one reading.
   void hold(std::size_t row, std::size_t reading, double usual) {
-    constexpr double to_one_missing = 1.5;  // RowSpacing::gap()
     const double away = std::abs(recorded_[row] - recorded_[reading]);
-    if (!(away > to_one_missing * usual)) values_[row] = values_[reading];
+    if (!RowSpacing::lost_within(away, usual)) values_[row] = values_[reading];
   }
 
   std::vector<double>& values_;

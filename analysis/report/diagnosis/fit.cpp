@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
@@ -48,7 +49,8 @@ Table fit_table(const Diagnosis& d) {
   line("NIS per degree of freedom", f.whiteness.nis_per_dof_before, f.whiteness.nis_per_dof_after,
        "1");
   line("whiteness of innovations, p (calibrated)", f.whiteness.ljung_box_p_before,
-       f.whiteness.ljung_box_p_after, fmt::format("above {}", Whiteness::least_p));
+       f.whiteness.ljung_box_p_after,
+       fmt::format("above {}", inference::RemarkLimits::whiteness_p));
   if (!f.held_out.folds.empty())
     line("held-out chi-square per degree of freedom", f.held_out.chi2_per_dof_before,
          f.held_out.chi2_per_dof_after, "1");

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/svg_canvas.hpp"
 #include "analysis/report/svg/zoomable.hpp"

@@ -1,5 +1,5 @@
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/base/utf8.hpp"
 
 namespace drift::report {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/dumbbell_chart.hpp"
 #include "analysis/report/svg/figure.hpp"

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
 #include "analysis/report/svg/bar_chart.hpp"
 #include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
@@ -28,7 +28,7 @@ Cell unit_cell(const std::string& unit) {
 /// Why a candidate is none of the causes. best: the largest log evidence among those.
 std::string why_not(const Diagnosis& d, const CandidateScore& c, double best) {
   if (!c.observable) return "not observable on this plan";
-  if (c.p_value > no_stronger_than_chance) return "no stronger than chance";
+  if (c.p_value > inference::RemarkLimits::chance_p) return "no stronger than chance";
   if (c.size_sigma > unusual_size)
     return fmt::format("would be {} times its usual size", number_text(c.size_sigma, 2));
   if (!c.leaves_nothing) return "with it, others stay significant";

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/svg/curve.hpp"
 #include "analysis/report/svg/figure.hpp"
 #include "analysis/report/svg/heat_map.hpp"
@@ -131,15 +131,6 @@ Blocks signal_figure(const Diagnosis& d) {
 }
 
 }  // namespace
-
-TimeUnit time_unit(const std::vector<double>& t) {
-  return t.empty() || t.back() - t.front() > 7200.0 ? TimeUnit::hours : TimeUnit::seconds;
-}
-
-TimeUnit time_unit(const Diagnosis& d) {
-  if (!d.fit.residual_t.empty()) return time_unit(d.fit.residual_t);
-  return d.signals.empty() ? TimeUnit::seconds : time_unit(d.signals.front().t);
-}
 
 TimeAxis time_axis(const std::vector<double>& t, const Where& where) {
   const bool in_hours = time_unit(t) == TimeUnit::hours;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/inference/thresholds.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/units.hpp"
 
@@ -49,11 +50,10 @@ std::string times_off_text(const identification::ClockDoubt& clock) {
 }
 
 std::string times_as_little_text(const identification::ClockDoubt& clock, double odds) {
-  constexpr double decided = 19.0;  // to 1: a probability of 0.95
   return fmt::format(
       "times (the clock of the log) that are all {} would leave as little{} (every time {} times "
       "as long)",
-      times_off_text(clock), odds > decided ? " and are far likelier" : "",
+      times_off_text(clock), odds > inference::RemarkLimits::decided ? " and are far likelier" : "",
       with_sigma(clock.factor, clock.sigma));
 }
 

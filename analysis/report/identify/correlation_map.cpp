@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/inference/fit_thresholds.hpp"
 #include "analysis/report/identify/correlation.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/figure.hpp"
@@ -11,7 +12,7 @@ namespace drift::report {
 namespace {
 
 constexpr std::size_t most_parameters = 20, most_pairs = 8;
-constexpr double worth_saying = 0.9;  // above, a parameter alone is known much worse than a sum
+constexpr double worth_saying = inference::WorthLimits::tied;
 
 HeatMap map_of(const MatX& correlation, const Layout& layout,
                const std::vector<std::size_t>& states) {

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "analysis/inference/fit_thresholds.hpp"
 #include "analysis/preparation/assumed_field.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/svg/axis_scale.hpp"
@@ -32,7 +33,7 @@ VecX shift_by_start(const identification::FilterRun& run) {
 /// With a linear model they would be one: what parts them is no noise but the EKF's linearisation.
 /// Empty if one failed, or if the model is wrong for both.
 std::vector<std::string> disputed(const identification::FilterRun& run) {
-  constexpr double apart = stats::half_width_95, unlike = 3.0;
+  constexpr double apart = stats::half_width_95, unlike = inference::FitLimits::unlike_sigmas;
   const EstimateResult& fit = run.batch.estimate;
   std::vector<std::string> keys;
   if (run.ekf.status != EstimateStatus::ok || fit.status != EstimateStatus::ok || misfit(fit))

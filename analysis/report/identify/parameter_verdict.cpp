@@ -1,16 +1,14 @@
 #include <cmath>
 
 #include "analysis/identification/counted_start.hpp"
+#include "analysis/inference/fit_thresholds.hpp"
 #include "analysis/report/identify/sections.hpp"
 #include "core/estimate/start_consistency.hpp"
 
 namespace drift::report {
 namespace {
 
-constexpr double nothing_learned = 0.8;  // posterior over prior sigma
-constexpr double half_learned = 0.5;     // below it a parameter is known by itself
-constexpr double mostly = 0.5;           // of its variance
-constexpr double surely_wrong = 5.0;     // [sigma] off the truth: no right model is, in any of 100
+using inference::WorthLimits;
 
 /// The part of a parameter's variance that is the prior's, along combinations of which the data say
 /// nothing: there the variance is one in units of the prior.
@@ -38,15 +36,16 @@ ParameterVerdict verdict_of(const FilterView& v, std::size_t state) {
   }
   if (v.id.truth) out.off = std::abs(p->value - v.id.truth->theta[out.param]) / p->sigma;
   const double ratio = v.summary.spread[state].counted;
-  if (out.off > surely_wrong)
+  if (out.off > WorthLimits::surely_wrong)
     out.worth = Worth::wrong;
   else if (!believed(v))
     out.worth = Worth::untrusted;
-  else if (p->learning_ratio() > nothing_learned)
+  else if (p->learning_ratio() > WorthLimits::nothing_learned)
     out.worth = Worth::prior_only;
   else if (std::isfinite(ratio) && start_verdict(ratio) == StartVerdict::depends_on_start)
     out.worth = Worth::start_dependent;
-  else if (p->learning_ratio() > half_learned && share_of_sums(v, state, *p) > mostly)
+  else if (p->learning_ratio() > WorthLimits::half_learned &&
+           share_of_sums(v, state, *p) > WorthLimits::mostly)
     out.worth = Worth::sum_only;
   return out;
 }

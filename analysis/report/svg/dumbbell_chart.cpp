@@ -9,7 +9,7 @@ namespace drift::report {
 namespace {
 
 constexpr double line_height = 19.0, label_height = 16.0, room_of_axis = 44.0;  // [px]
-constexpr std::string_view before_colour = "#D55E00", after_colour = "#0072B2";
+constexpr std::size_t before_colour = orange, after_colour = blue;
 
 void mark(SvgCanvas& canvas, double x, double y, std::string_view colour) {
   if (std::isfinite(x)) canvas.rectangle(x - 4.0, y - 4.0, 8.0, 8.0, colour);
@@ -49,10 +49,10 @@ std::string svg_of(const DumbbellChart& chart) {
                    chart.title);
   canvas.text(canvas_edge, 24.0, chart.title, {.size = 15.0, .bold = true});
   const double key = chart.title.empty() ? 16.0 : 44.0;
-  mark(canvas, key_x + 4.0, key - 4.0, before_colour);
+  mark(canvas, key_x + 4.0, key - 4.0, palette(before_colour));
   canvas.text(key_x + 14.0, key, chart.before_label);
   const double second = key_x + 34.0 + text_pixels(chart.before_label, label_type);
-  mark(canvas, second, key - 4.0, after_colour);
+  mark(canvas, second, key - 4.0, palette(after_colour));
   canvas.text(second + 10.0, key, chart.after_label);
   canvas.text(width - canvas_edge, y0 - 8.0, chart.text_label,
               {.size = small_type, .anchor = "end"});
@@ -67,9 +67,9 @@ std::string svg_of(const DumbbellChart& chart) {
     const double from = x_of(d.before), to = x_of(d.after);
     if (std::isfinite(from) && std::isfinite(to)) canvas.line(from, y, to, y, "#999999", 1.6);
     if (std::isfinite(d.low) && std::isfinite(d.high))
-      canvas.line(x_of(d.low), y, x_of(d.high), y, after_colour, 3.0);
-    mark(canvas, from, y, before_colour);
-    mark(canvas, to, y, after_colour);
+      canvas.line(x_of(d.low), y, x_of(d.high), y, palette(after_colour), 3.0);
+    mark(canvas, from, y, palette(before_colour));
+    mark(canvas, to, y, palette(after_colour));
     canvas.text(width - canvas_edge, y + 4.0, d.text, {.size = small_type, .anchor = "end"});
   }
   if (chart.limit) axis.draw(canvas, *chart.limit);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "analysis/report/svg/svg_canvas.hpp"
@@ -19,10 +20,13 @@ constexpr double least_cell = 4.0, most_cell = 70.0;  // [px]
 std::string colour_of(double x) {
   if (!std::isfinite(x)) return "#dddddd";
   const double a = std::clamp(std::abs(x), 0.0, 1.0);
-  const int full[2][3] = {{0xD5, 0x5E, 0x00}, {0x00, 0x72, 0xB2}};
-  const auto mix = [&](int c) { return static_cast<int>(std::lround(255.0 + a * (c - 255.0))); };
-  const auto& f = full[x >= 0.0 ? 1 : 0];
-  return fmt::format("#{:02X}{:02X}{:02X}", mix(f[0]), mix(f[1]), mix(f[2]));
+  const std::string_view full = palette(x >= 0.0 ? blue : orange);
+  const auto mix = [&](std::size_t begin) {  // of "#0072B2" the two digits that begin there
+    int c = 0;
+    std::from_chars(full.data() + begin, full.data() + begin + 2, c, 16);
+    return static_cast<int>(std::lround(255.0 + a * (c - 255.0)));
+  };
+  return fmt::format("#{:02X}{:02X}{:02X}", mix(1), mix(3), mix(5));
 }
 
 void key(SvgCanvas& canvas, const HeatMap& map, double x, double y, double most, bool negative) {

@@ -7,9 +7,19 @@
 #include <iterator>
 
 #include "analysis/report/page/escape.hpp"
+#include "analysis/report/page/style.hpp"
 
 namespace drift::report {
 namespace {
+
+constexpr std::array<std::string_view, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                  "#E69F00", "#56B4E9", "#4D4D4D"};
+
+/// What the style of pages, which is below pictures, has behind a key: of a light page the first,
+/// of a dark one the last.
+constexpr std::string_view accent = "--accent: ";
+static_assert(page_style.substr(page_style.find(accent) + accent.size(), 7) == colours[blue]);
+static_assert(page_style.substr(page_style.rfind(accent) + accent.size(), 7) == colours[sky_blue]);
 
 std::string_view dashes(Stroke stroke) {
   switch (stroke) {
@@ -31,8 +41,6 @@ void append(std::string& out, fmt::format_string<Args...> text, Args&&... args) 
 }  // namespace
 
 std::string_view palette(std::size_t index) {
-  static constexpr std::array<std::string_view, 7> colours{
-      "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#4D4D4D"};
   return colours[index % colours.size()];
 }
 

@@ -24,6 +24,8 @@ enum class Stroke { solid, dashed, dotted };
 
 /// Colours that people with any colour vision tell apart (Okabe and Ito 2008), repeated beyond 7.
 std::string_view palette(std::size_t index);
+/// Indices of those that mean something, whatever stands beside them.
+inline constexpr std::size_t blue = 0, orange = 1, amber = 4, sky_blue = 5;
 
 struct TextStyle {
   double size = label_type;           ///< [px]

@@ -206,7 +206,7 @@ double paint_legend(SvgCanvas* canvas, const std::vector<LegendEntry>& entries, 
 }  // namespace
 
 std::string_view fill_of(Shade shade) {
-  return shade == Shade::located ? "#E69F00" : "#7F7F7F";
+  return shade == Shade::located ? palette(amber) : "#7F7F7F";
 }
 
 ChartParts parts_of(const Chart& chart) {

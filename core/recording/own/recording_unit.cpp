@@ -22,10 +22,9 @@ constexpr std::pair<std::string_view, std::string_view> spellings[] = {
     {"\u00B2", "^2"},     {"\u00B3", "^3"},     {"\u00B7", "*"}, {"\u22C5", "*"},
     {"\u2033", "arcsec"}, {"\u2032", "arcmin"}, {"**", "^"}};
 constexpr std::pair<std::string_view, std::string_view> wholes[] = {
-    {"m s^-2", "m/s^2"},   {"m s-2", "m/s^2"},    {"m*s^-2", "m/s^2"},   {"m.s-2", "m/s^2"},
-    {"m/s/s", "m/s^2"},    {"rad s^-1", "rad/s"}, {"rad*s^-1", "rad/s"}, {"rad s-1", "rad/s"},
-    {"deg s^-1", "deg/s"}, {"deg*s^-1", "deg/s"}, {"deg s-1", "deg/s"},  {"dps", "deg/s"},
-    {"dph", "deg/h"}};
+    {"m s^-2", "m/s^2"},   {"m s-2", "m/s^2"},    {"m*s^-2", "m/s^2"},  {"m.s-2", "m/s^2"},
+    {"rad s^-1", "rad/s"}, {"rad*s^-1", "rad/s"}, {"rad s-1", "rad/s"}, {"deg s^-1", "deg/s"},
+    {"deg*s^-1", "deg/s"}, {"deg s-1", "deg/s"},  {"dps", "deg/s"},     {"dph", "deg/h"}};
 constexpr Alias aliases[] = {{"sec", "s"},
                              {"second", "s"},
                              {"seconds", "s"},
@@ -55,14 +54,11 @@ constexpr Alias aliases[] = {{"sec", "s"},
                              {"Gauss", "gauss"},
                              {"mgauss", "gauss", 1e-3},
                              {"nT", "T", 1e-9},
-                             {"mm", "m", 1e-3},
-                             {"cm", "m", 1e-2},
                              {"ft", "m", 0.3048},
                              {"asec", "arcsec"},
                              {"mas", "arcsec", 1e-3},
                              {"rev", "turn"},
                              {"revs", "turn"},
-                             {"day", "h", 24.0},
                              {"days", "h", 24.0},
                              {"Gal", "m/s^2", 1e-2},
                              {"gal", "m/s^2", 1e-2},

@@ -66,7 +66,7 @@ double usual_of(std::vector<double> steps, double of_phase, bool names_position)
   const double with_losses = names_position ? step_with_losses(steps, of_phase) : nan_value;
   std::ranges::sort(steps);
   const double median = steps[steps.size() / 2], quartile = steps[(steps.size() - 1) / 4];
-  if (!(median > 1.5 * of_phase)) return median;
+  if (!RowSpacing::lost_within(median, of_phase)) return median;
   if (std::abs(quartile - of_phase) < alike * of_phase) return quartile;
   return std::isnan(with_losses) ? median : with_losses;
 }

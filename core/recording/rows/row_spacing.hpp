@@ -23,9 +23,11 @@ struct RowSpacing {
   /// does not tell.
   std::vector<double> usual;
 
-  /// Rows are missing in front of this one: halfway to one missing row. (At the first row of a
-  /// position, time may also have passed because the platform was caged.)
-  bool gap(std::size_t row) const { return step[row] > 1.5 * usual[row]; }
+  /// So many seconds without a row are more than what is usual: halfway to one missing row.
+  static bool lost_within(double seconds, double usual) { return seconds > 1.5 * usual; }
+  /// Rows are missing in front of this one. (At the first row of a position, time may also have
+  /// passed because the platform was caged.)
+  bool gap(std::size_t row) const { return lost_within(step[row], usual[row]); }
   /// The way from the row before is longer than what is usual here by half of what is usual on
   /// either side: between seconds and minutes one second may be missing that is no gap by itself.
   bool longer(std::size_t row) const;

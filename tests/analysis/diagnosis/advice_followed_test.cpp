@@ -3,7 +3,7 @@
 
 #include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "analysis/diagnosis/advice/alternatives.hpp"
-#include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/words/advice_words.hpp"
 #include "core/base/check.hpp"
 #include "core/sim/measurements.hpp"
 #include "core/sim/simulate.hpp"

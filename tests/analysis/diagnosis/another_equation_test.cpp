@@ -7,7 +7,7 @@
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/program.hpp"

@@ -14,8 +14,6 @@ namespace {
 
 using namespace drift::test;
 
-constexpr std::size_t of_each_caging = 5;
-
 Diagnosis diagnosis_of(std::string_view preset, Coupling coupling, std::uint64_t seed,
                        double& sigma) {
   blind::World world;
@@ -23,7 +21,8 @@ Diagnosis diagnosis_of(std::string_view preset, Coupling coupling, std::uint64_t
   world.timeline = preset_timeline(preset, CommandLaw::free, 1800.0, 120.0);
   world.draw = draw_truth(world.truth, world.timeline.chains, seed, 0);
   Stream stream(seed, 0, Purpose::test);
-  const blind::HiddenEffect hidden = blind::spoil_noise(of_each_caging, world, stream);
+  const blind::HiddenEffect hidden =
+      blind::spoil_noise(blind::noise_fault("caging_drift"), world, stream);
   EXPECT_EQ(hidden.term, "caging_drift");
   sigma = hidden.parameters.front().value;
   const Measurements measured = blind::simulate_recorded(world, seed, 0).measured;

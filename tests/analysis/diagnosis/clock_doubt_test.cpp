@@ -10,10 +10,10 @@
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/diagnosis/doubts/site_doubt.hpp"
 #include "analysis/identification/identify.hpp"
-#include "analysis/report/diagnosis/doubts.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/doubts.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::diagnosis::clock_doubt_test {

@@ -6,7 +6,7 @@
 
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/identification/identify.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/six_positions.hpp"
 

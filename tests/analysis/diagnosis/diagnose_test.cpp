@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/stats/normal.hpp"
 #include "tests/support/model_builders.hpp"
 

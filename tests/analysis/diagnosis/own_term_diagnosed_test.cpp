@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/physics/own/own_scenes.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/own_terms.hpp"

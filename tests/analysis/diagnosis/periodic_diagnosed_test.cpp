@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::periodic_diagnosed_test {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::diagnosis::shares_of_excess_test {

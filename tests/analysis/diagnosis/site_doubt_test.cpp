@@ -10,9 +10,9 @@
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/identification/identify.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::diagnosis::site_doubt_test {

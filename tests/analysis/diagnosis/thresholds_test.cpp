@@ -9,7 +9,7 @@
 #include "analysis/diagnosis/doubts/wrong_priors.hpp"
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/identification/spikes.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::thresholds_test {

@@ -3,7 +3,7 @@
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/two_recordings.hpp"
 

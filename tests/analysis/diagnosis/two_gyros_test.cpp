@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 
 namespace drift::diagnosis::two_gyros_test {

@@ -8,7 +8,7 @@
 
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/identification/identify.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/rows_at_any_distance.hpp"
 
 namespace drift::diagnosis::unequal_rows_diagnosed_test {

@@ -9,7 +9,7 @@
 #include "analysis/identification/field_found.hpp"
 #include "analysis/identification/identify.hpp"
 #include "analysis/preparation/assumed_field.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::diagnosis::unknown_field_test {

@@ -6,9 +6,9 @@
 #include "analysis/diagnosis/acting.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/located.hpp"
-#include "analysis/report/diagnosis/effect_words.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "tests/support/term_scenes.hpp"
 
 namespace drift::diagnosis::where_follows_test {

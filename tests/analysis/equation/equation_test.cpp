@@ -11,7 +11,7 @@
 #include "analysis/equation/held_parameter.hpp"
 #include "analysis/inference/signatures.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/sim/simulate.hpp"
 #include "mc/study/study.hpp"
 #include "tests/support/model_builders.hpp"

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "analysis/diagnosis/diagnose.hpp"
-#include "analysis/report/diagnosis/form_words.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/form_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/model_builders.hpp"
 #include "tests/support/own_terms.hpp"
 

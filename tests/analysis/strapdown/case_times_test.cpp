@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "core/config/load.hpp"
 #include "tests/support/case_unit.hpp"

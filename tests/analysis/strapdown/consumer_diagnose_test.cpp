@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "core/base/check.hpp"
 #include "tests/analysis/report/xml_check.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/strapdown/case_diagnose.hpp"
 #include "tests/support/strapdown_recording.hpp"
 

@@ -1,5 +1,5 @@
 // The short answer's next step: positions that separate some causes, and those that none separates.
-#include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/words/advice_words.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/diagnosis/asides.hpp"
-#include "analysis/report/diagnosis/effect_words.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 
 namespace drift::case_words_test {
 namespace {

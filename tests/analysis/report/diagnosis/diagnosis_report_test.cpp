@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/svg/svg_chart.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 #include "tests/analysis/report/figures_of.hpp"

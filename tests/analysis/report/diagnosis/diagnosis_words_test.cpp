@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
-#include "analysis/report/diagnosis/form_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/form_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 #include "tests/analysis/report/figures_of.hpp"
 #include "tests/analysis/report/xml_check.hpp"

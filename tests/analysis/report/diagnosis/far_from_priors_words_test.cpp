@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"
 
 namespace drift::far_from_priors_words_test {

@@ -1,8 +1,8 @@
 // What is said of held-out data agrees with the numbers beside it.
 #include <gtest/gtest.h>
 
-#include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 
 namespace drift::held_out_words_test {
 namespace {

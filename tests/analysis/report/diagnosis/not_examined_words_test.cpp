@@ -1,11 +1,11 @@
-#include "analysis/report/diagnosis/not_examined_words.hpp"
+#include "analysis/report/diagnosis/words/not_examined_words.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "analysis/report/diagnosis/report.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "tests/support/own_terms.hpp"
 
 namespace drift::not_examined_words_test {

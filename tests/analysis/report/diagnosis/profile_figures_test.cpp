@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/diagnosis/effect_words.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/physics/closure.hpp"
 #include "core/stats/normal.hpp"
 #include "tests/analysis/report/diagnosis/diagnosis_fixture.hpp"

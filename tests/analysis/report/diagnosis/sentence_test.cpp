@@ -1,11 +1,11 @@
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "analysis/inference/noise/noise_component.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
 #include "core/base/number_text.hpp"
 
 namespace drift::sentence_test {

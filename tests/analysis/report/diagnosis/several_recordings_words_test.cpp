@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "analysis/inference/noise/noise_component.hpp"
-#include "analysis/report/diagnosis/not_examined_words.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/not_examined_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 
 namespace drift::several_recordings_words_test {
 namespace {

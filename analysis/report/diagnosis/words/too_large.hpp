@@ -7,13 +7,8 @@
 
 namespace drift::report {
 
-/// Family-wise p above which a candidate is no stronger than chance.
-inline constexpr double no_stronger_than_chance = 0.05;
 /// Prior sigmas above which a size is unusual: 1 in a million units has it.
 inline constexpr double unusual_size = inference::FitLimits::beyond_prior;
-/// Prior sigmas above which a candidate that its size alone makes less likely is named all the
-/// same: 1 in 400 units has it.
-inline constexpr double large_size = 3.0;
 
 /// Candidates that would explain a recording as the causes do: " What would explain it as well, but
 /// loses by its size alone: base_motion_leak.y (12 times its usual size)." Of a term the

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/effect_words.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/physics/closure.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/findings/profile.hpp"
-#include "analysis/report/diagnosis/instrument.hpp"
+#include "analysis/report/diagnosis/words/instrument.hpp"
 #include "analysis/search/cause.hpp"
 
 namespace drift::report {

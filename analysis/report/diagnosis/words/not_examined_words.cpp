@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/not_examined_words.hpp"
+#include "analysis/report/diagnosis/words/not_examined_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,14 +9,14 @@
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/alternative_words.hpp"
-#include "analysis/report/diagnosis/doubts.hpp"
-#include "analysis/report/diagnosis/field_words.hpp"
-#include "analysis/report/diagnosis/not_examined_words.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
-#include "analysis/report/diagnosis/too_large.hpp"
-#include "analysis/report/diagnosis/verdict_openings.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/alternative_words.hpp"
+#include "analysis/report/diagnosis/words/doubts.hpp"
+#include "analysis/report/diagnosis/words/field_words.hpp"
+#include "analysis/report/diagnosis/words/not_examined_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
+#include "analysis/report/diagnosis/words/verdict_openings.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "core/base/number_text.hpp"
@@ -215,8 +215,8 @@ std::string absent_text(const std::vector<std::string>& absent) {
 
 /// What would explain the test at the declared latitude, unless the odds are against it.
 std::string rival_text(const Diagnosis& d) {
-  constexpr double decided = 19.0;  // to 1: a probability of 0.95
-  if (d.causes.empty() || d.site_doubt->clock || d.site_doubt->odds > decided ||
+  if (d.causes.empty() || d.site_doubt->clock ||
+      d.site_doubt->odds > inference::RemarkLimits::decided ||
       d.causes.front().term == "latitude_error")
     return "";
   return fmt::format(" If a map confirms the latitude of [site], it is {}.",

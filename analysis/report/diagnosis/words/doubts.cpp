@@ -1,14 +1,14 @@
-#include "analysis/report/diagnosis/doubts.hpp"
+#include "analysis/report/diagnosis/words/doubts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/alternative_words.hpp"
-#include "analysis/report/diagnosis/effect_words.hpp"
-#include "analysis/report/diagnosis/field_words.hpp"
-#include "analysis/report/diagnosis/verdict_openings.hpp"
+#include "analysis/report/diagnosis/words/alternative_words.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
+#include "analysis/report/diagnosis/words/field_words.hpp"
+#include "analysis/report/diagnosis/words/verdict_openings.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"

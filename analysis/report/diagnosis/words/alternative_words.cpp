@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/alternative_words.hpp"
+#include "analysis/report/diagnosis/words/alternative_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "analysis/inference/thresholds.hpp"
-#include "analysis/report/diagnosis/effect_words.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
 #include "core/base/words.hpp"
 
 namespace drift::report {

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/remark_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,9 @@
 #include <cmath>
 
 #include "analysis/diagnosis/findings/fit_comparison.hpp"
-#include "analysis/report/diagnosis/doubts.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/inference/thresholds.hpp"
+#include "analysis/report/diagnosis/words/doubts.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
@@ -27,9 +28,9 @@ auto other_number(const OtherEquation& r) {
 /// How an equation that is not ruled out compares: "the test is explained as well", or "the odds
 /// are 33 to 1 for the nominal one, less than 3 sigma" (RemarkLimits::equation).
 std::string as_well_text(double gain) {
-  constexpr double no_worse = 2.0;  // [twice the log of the odds]: e to 1, not worth a mention
   const std::string number = fmt::format("twice the log of the odds: {:+.1f}", gain);
-  if (std::abs(gain) <= no_worse) return fmt::format("the test is explained as well ({})", number);
+  if (std::abs(gain) <= inference::RemarkLimits::as_well)
+    return fmt::format("the test is explained as well ({})", number);
   return fmt::format("the odds are {} to 1 for the {} one, less than 3 sigma ({})",
                      number_text(std::exp(0.5 * std::abs(gain)), 2),
                      gain < 0.0 ? "nominal" : "other", number);
@@ -77,7 +78,7 @@ struct Words {
         "of "
         "20 recordings (p {}, without it {}): {}.",
         p_text(r.after), p_text(r.before),
-        r.before < diagnosis::Whiteness::least_p
+        r.before < inference::RemarkLimits::whiteness_p
             ? "something beside it is left"
             : "something is left, or the cause takes the place of another");
   }

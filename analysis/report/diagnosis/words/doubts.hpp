@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
-#include "analysis/report/diagnosis/instrument.hpp"
+#include "analysis/report/diagnosis/words/instrument.hpp"
 #include "analysis/report/page/json.hpp"
 
 namespace drift::report {

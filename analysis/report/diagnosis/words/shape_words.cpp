@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "analysis/report/diagnosis/sentence.hpp"
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 
 namespace drift::report {
 namespace {
@@ -58,6 +58,15 @@ std::string bare(const diagnosis::Shape& s, const std::vector<RecordingSpan>& re
 }
 
 }  // namespace
+
+TimeUnit time_unit(const std::vector<double>& t) {
+  return t.empty() || t.back() - t.front() > 7200.0 ? TimeUnit::hours : TimeUnit::seconds;
+}
+
+TimeUnit time_unit(const diagnosis::Diagnosis& d) {
+  if (!d.fit.residual_t.empty()) return time_unit(d.fit.residual_t);
+  return d.signals.empty() ? TimeUnit::seconds : time_unit(d.signals.front().t);
+}
 
 std::string onset_text(double t, const std::vector<RecordingSpan>& recordings, TimeUnit axes) {
   std::size_t k = recordings.size();

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
-#include "analysis/report/diagnosis/effect_words.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
 
 namespace drift::report {
 

@@ -1,11 +1,8 @@
-#include "analysis/report/diagnosis/form_words.hpp"
+#include "analysis/report/diagnosis/words/form_words.hpp"
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "analysis/report/diagnosis/effect_words.hpp"
-#include "analysis/report/diagnosis/sections.hpp"
+#include "analysis/report/diagnosis/words/effect_words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 
@@ -51,38 +48,6 @@ std::string form_sentence(const Proposal& p) {
       "tried, noise alone gives one as much with a chance of {}.",
       p.acts_on, p.equation, known_text(p), listed(numbers, "and"), what_to_do_text(p), p.positions,
       p.chi2_per_dof_before, p.chi2_per_dof_after, p.held_out_gain, p.forms, p_text(p.p_value));
-}
-
-Section form_that_fits(const Diagnosis& d) {
-  if (!d.proposal) return {};
-  return {"A form that fits",
-          {Paragraph{form_sentence(*d.proposal)},
-           Paragraph{"As a term of the study file, to be simulated, estimated and tried on another "
-                     "recording:"},
-           Preformatted{d.proposal->text}},
-          On::both};
-}
-
-Json form_json(const std::optional<Proposal>& proposal) {
-  if (!proposal) return nullptr;
-  const Proposal& p = *proposal;
-  Json parameters = Json::array();
-  for (const search::CauseParameter& parameter : p.parameters)
-    parameters.push_back({{"key", parameter.key},
-                          {"value", parameter.value},
-                          {"sigma", parameter.sigma},
-                          {"unit", parameter.unit}});
-  return {{"acts_on", p.acts_on},
-          {"equation", p.equation},
-          {"known", text_or_null(p.known)},
-          {"parameters", std::move(parameters)},
-          {"p_value", p.p_value},
-          {"forms_tried", p.forms},
-          {"held_out",
-           {{"folds", p.positions},
-            {"log_score_gain", p.held_out_gain},
-            {"chi2_per_dof_before", p.chi2_per_dof_before},
-            {"chi2_per_dof_after", p.chi2_per_dof_after}}}};
 }
 
 }  // namespace drift::report

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/advice_words.hpp"
+#include "analysis/report/diagnosis/words/advice_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/too_large.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 
@@ -34,10 +34,11 @@ bool is_named(const Diagnosis& d, const CandidateScore& c) {
 /// that no cause is, or further out than is usual, and as likely as the causes were it not. best:
 /// the largest log evidence among those.
 bool loses_by_size(const CandidateScore& c, double best) {
-  if (!c.observable || !c.leaves_nothing || c.p_value > no_stronger_than_chance) return false;
+  if (!c.observable || !c.leaves_nothing || c.p_value > inference::RemarkLimits::chance_p)
+    return false;
   const double cost = 0.5 * c.size_sigma * c.size_sigma;  // of the size, in log evidence
-  return c.size_sigma > unusual_size ||
-         (c.size_sigma > large_size && best > c.log_bayes && c.log_bayes + cost > best);
+  return c.size_sigma > unusual_size || (c.size_sigma > inference::RemarkLimits::large_size &&
+                                         best > c.log_bayes && c.log_bayes + cost > best);
 }
 
 /// The largest log evidence among the candidates that are causes.

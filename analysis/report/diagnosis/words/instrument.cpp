@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/instrument.hpp"
+#include "analysis/report/diagnosis/words/instrument.hpp"
 
 #include <algorithm>
 #include <iterator>

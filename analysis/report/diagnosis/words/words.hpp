@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
-#include "analysis/report/diagnosis/instrument.hpp"
+#include "analysis/report/diagnosis/words/instrument.hpp"
 
 namespace drift::report {
 

@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/field_words.hpp"
+#include "analysis/report/diagnosis/words/field_words.hpp"
 
 #include <fmt/format.h>
 

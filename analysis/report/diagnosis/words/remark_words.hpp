@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "analysis/diagnosis/findings/remark.hpp"
-#include "analysis/report/diagnosis/instrument.hpp"
+#include "analysis/report/diagnosis/words/instrument.hpp"
 
 namespace drift::report {
 

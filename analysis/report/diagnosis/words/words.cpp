@@ -1,4 +1,4 @@
-#include "analysis/report/diagnosis/words.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/report/diagnosis/not_examined_words.hpp"
-#include "analysis/report/diagnosis/remark_words.hpp"
-#include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/words/not_examined_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
+#include "analysis/report/diagnosis/words/sentence.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 

@@ -1,0 +1,75 @@
+# What its list does not name is silently dead: every term, method, section, command and rival is named in the
+# list that analysis/README.md says it belongs to.
+cmake_policy(VERSION 3.20)
+set(bad "")
+
+# What lines of the FILES define (the last group of PATTERN) is named in the list of LIST_FILE, which begins with
+# BEGINS and ends with a semicolon. Where EACH is true every file defines something.
+function(all_named list_file begins pattern each)
+  file(READ ${ROOT}/${list_file} text)
+  if(NOT text MATCHES "\n${begins}([^;]*);")
+    string(APPEND bad "tests/architecture/check_lists.cmake finds no list in ${list_file}\n")
+  endif()
+  string(REGEX REPLACE "(\\([a-z_]+), [a-z_]+\\)" "\\1)" list "${CMAKE_MATCH_1}")  # a section's part of the page is no name
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${ROOT}/${file} lines REGEX "${pattern}")
+    if(each AND NOT lines)
+      string(APPEND bad "${file} defines nothing that a list could name\n")
+    endif()
+    foreach(line IN LISTS lines)
+      string(REGEX MATCH "${pattern}" line "${line}")
+      set(name "${CMAKE_MATCH_${CMAKE_MATCH_COUNT}}")
+      if(NOT list MATCHES "(^|[^A-Za-z0-9_])${name}([^A-Za-z0-9_]|$)")
+        string(APPEND bad "${file} defines ${name}, which ${list_file} does not name\n")
+      endif()
+    endforeach()
+  endforeach()
+  set(bad "${bad}" PARENT_SCOPE)
+endfunction()
+
+function(files_of out pattern)
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${pattern})
+  set(${out} "${files}" PARENT_SCOPE)
+endfunction()
+
+files_of(terms core/physics/terms/*.hpp)
+all_named(core/physics/term_library.hpp "using TermLibrary = TermList<" "^struct ([A-Za-z0-9]+)" TRUE ${terms})
+file(READ ${ROOT}/core/physics/term_library.hpp library)
+foreach(file IN LISTS terms)
+  string(FIND "${library}" "#include \"${file}\"\n" at)
+  if(at LESS 0)
+    string(APPEND bad "${file} is not included by core/physics/term_library.hpp\n")
+  endif()
+endforeach()
+
+files_of(methods analysis/observability/methods/*.cpp)
+all_named(analysis/observability/other_methods.cpp "DRIFT_METHODS\\(methods," "^Method ([a-z0-9_]+)\\(\\) {" TRUE ${methods})
+
+files_of(rivals analysis/blind/rivals/*.cpp)
+all_named(analysis/blind/rivals/rival_test.cpp "std::vector<Rival> rivals\\(\\) {" "^RivalAnswer ([a-z0-9_]+)\\(const RivalTest&" FALSE
+  ${rivals})
+
+files_of(commands analysis/cli/*.cpp)
+files_of(own analysis/cli/commands/*.cpp)
+list(REMOVE_ITEM commands ${own})
+all_named(analysis/cli/shell/commands.cpp "DRIFT_COMMANDS\\(every_command," "^Command ([a-z_]+)\\(\\) {" FALSE ${commands})
+all_named(analysis/cli/shell/commands.cpp "DRIFT_COMMANDS\\(every_command," "^Command ([a-z_]+)\\(\\) {" TRUE ${own})
+
+# Of a view that a folder has a list of: functions with more arguments are called by name.
+files_of(reports analysis/report/*.?pp)
+foreach(file IN LISTS reports)
+  file(STRINGS ${ROOT}/${file} view REGEX "^DRIFT_SECTIONS\\(")
+  if(view)
+    string(REGEX REPLACE "^DRIFT_SECTIONS\\(([a-zA-Z:]*:)?([A-Za-z]+),.*" "\\2" view "${view}")
+    get_filename_component(folder ${file} DIRECTORY)
+    files_of(sections ${folder}/*.cpp)
+    all_named(${file} "DRIFT_SECTIONS\\(" "^Section ([a-z0-9_]+)\\(const [a-z:]*${view}& [a-z_]+\\) {" FALSE ${sections})
+    list(APPEND lists ${file})
+  endif()
+endforeach()
+if(NOT lists)
+  string(APPEND bad "tests/architecture/check_lists.cmake finds no list of sections\n")
+endif()
+if(bad)
+  message(FATAL_ERROR "${bad}")
+endif()
