@@ -188,15 +188,15 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   study.environment = read_environment(top.section("environment"));
   read_terms_into_library(top, plan.kind);
   study.recording.of_terms = own_terms().covariates;
-  const Node* sweep = top.take("sweep");
+  top.take("sweep");
   // A blind study has truths of several couplings too.
-  const bool swept = sweeps(sweep, "truth.coupling") || top.has("blind");
+  const bool swept = sweeps(root, "truth.coupling") || top.has("blind");
   Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
   study.filters = read_filters(top, mounting);
   study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
-  study.sweep = read_sweep(report, sweep);
+  study.sweep = read_sweep(report, root);
   study.published = read_published(top);
   if (Section blind = top.section("blind"); blind.present()) {
     study.blind = read_blind(blind);
