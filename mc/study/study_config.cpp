@@ -17,6 +17,7 @@
 #include "core/recording/own/format_config.hpp"
 #include "mc/study/blind_config.hpp"
 #include "mc/study/declared_keys.hpp"
+#include "mc/study/idle_axes.hpp"
 #include "mc/study/published_config.hpp"
 #include "mc/study/servo_check.hpp"
 #include "mc/study/study.hpp"
@@ -242,6 +243,7 @@ Study read_study_text(std::string_view text, const std::string& path, const Over
   Study study = read_study_tree(root, path);
   study.overrides = overrides;
   try_sweep(root, study);
+  refuse_idle_axes(root, study);
   study.text = config::to_document(root);
   return study;
 }
