@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "analysis/cli/print.hpp"
+#include "mc/study/study_notes.hpp"
+
 namespace drift::cli {
 namespace {
 
@@ -37,7 +40,9 @@ mc::Overrides StudyArguments::overrides() const {
 }
 
 mc::Study StudyArguments::read() const {
-  return mc::read_study(config, overrides());
+  mc::Study study = mc::read_study(config, overrides());
+  say("{}", mc::idle_settings_text(study));
+  return study;
 }
 
 }  // namespace drift::cli

@@ -16,7 +16,7 @@ struct StudyArguments {
   std::optional<std::string> seed;
   std::string progress = "auto";  ///< auto, plain, json, none
 
-  /// Reads the study with the overrides of the command line.
+  /// Reads the study with the overrides of the command line, and notes those without effect.
   mc::Study read() const;
   mc::Overrides overrides() const;
 };

@@ -59,24 +59,31 @@ const Node* name_of(const Node& item) {
   return nullptr;
 }
 
-Node& element(Node& list, const std::string& part, const std::string& key) {
-  std::vector<std::string_view> names;
-  for (auto& item : list.items)
-    if (const Node* name = name_of(item); name != nullptr) {
-      if (name->text == part) return item;
-      names.push_back(name->text);
-    }
+/// The element of a list that a part of a key names, or counts.
+std::optional<std::size_t> index_in(const Node& list, const std::string& part) {
+  for (std::size_t k = 0; k < list.items.size(); ++k)
+    if (const Node* name = name_of(list.items[k]); name != nullptr && name->text == part) return k;
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-  if (error != std::errc() || end != part.data() + part.size())
+  if (error != std::errc() || end != part.data() + part.size()) return std::nullopt;
+  return index;
+}
+
+Node& element(Node& list, const std::string& part, const std::string& key) {
+  const auto index = index_in(list, part);
+  if (!index) {
+    std::vector<std::string_view> names;
+    for (const Node& item : list.items)
+      if (const Node* name = name_of(item); name != nullptr) names.push_back(name->text);
     refuse(key,
            fmt::format("there is no element named '{}' (expected a name, or a number from 0 to "
                        "{}). {}",
                        part, list.items.size() - 1, suggestion(part, names, "Count from 0")));
-  if (index >= list.items.size())
+  }
+  if (*index >= list.items.size())
     refuse(key, fmt::format("there is no element {} (expected 0 to {}). Count from 0", part,
                             list.items.size() - 1));
-  return list.items[index];
+  return list.items[*index];
 }
 
 /// The node that a key leads to; what is missing on the way is made, as tables.
@@ -141,6 +148,32 @@ void apply_override(Node& root, const std::string& key, std::string_view value) 
 
 void apply_overlay(Node& root, const std::string& key, std::string_view value) {
   lay_over(node_of(root, key), parse_value(value, key));
+}
+
+std::string numbered(const Node& root, const std::string& key) {
+  std::vector<std::string> parts;
+  try {
+    parts = split(key);
+  } catch (const InputError&) {
+    return key;
+  }
+  std::string path;
+  const Node* at = &root;
+  for (std::string& part : parts) {
+    const Node* next = nullptr;
+    if (at != nullptr && at->is(Node::Kind::array)) {
+      const auto index = index_in(*at, part);
+      if (index && *index < at->items.size()) {
+        part = std::to_string(*index);
+        next = &at->items[*index];
+      }
+    } else if (at != nullptr) {
+      next = at->find(part);
+    }
+    path += (path.empty() ? "" : ".") + part;
+    at = next;
+  }
+  return path;
 }
 
 void apply_addition(Node& root, const std::string& key, std::string_view value) {

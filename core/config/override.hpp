@@ -19,6 +19,10 @@ void apply_override(Node& root, const std::string& key, std::string_view value);
 /// A distribution (`{ normal = [...] }`) is one value and takes the place of another one.
 void apply_overlay(Node& root, const std::string& key, std::string_view value);
 
+/// The same key with every element of a list by its number: "filter.corrected.coupling" is
+/// "filter.0.coupling". As it is from where it leads nowhere, or if it is no dotted key.
+std::string numbered(const Node& root, const std::string& key);
+
 /// Adds to the end of a list that the tree has, as `--set key+=value` asks: one value, or each of a
 /// list of them. InputError (config) if there is no such list.
 void apply_addition(Node& root, const std::string& key, std::string_view value);

@@ -12,9 +12,9 @@ void visit_options(Readout& o, Field&& field) {
   using config::Option;
   field(Option{.key = "accelerometers", .doc = "the accelerometers are read"}, o.accelerometers);
   field(Option{.key = "gimbals", .doc = "the gimbal resolvers are read"}, o.gimbals);
-  field(Option{"accelerometer_noise", unit::ug, 1e-3, 1e6, "1 sigma of one sample"},
+  field(Option{"accelerometer_noise", unit::ug, 1e-3, 1e6, "1 sigma of the mean over one sample"},
         o.accelerometer_noise);
-  field(Option{"gimbal_noise", unit::arcsec, 1e-3, 36000.0, "1 sigma of one sample"},
+  field(Option{"gimbal_noise", unit::arcsec, 1e-3, 36000.0, "1 sigma of one reading"},
         o.gimbal_noise);
 }
 

@@ -17,6 +17,7 @@
 #include "core/recording/own/format_config.hpp"
 #include "mc/study/blind_config.hpp"
 #include "mc/study/declared_keys.hpp"
+#include "mc/study/idle_axes.hpp"
 #include "mc/study/published_config.hpp"
 #include "mc/study/servo_check.hpp"
 #include "mc/study/study.hpp"
@@ -188,15 +189,15 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   study.environment = read_environment(top.section("environment"));
   read_terms_into_library(top, plan.kind);
   study.recording.of_terms = own_terms().covariates;
-  const Node* sweep = top.take("sweep");
+  top.take("sweep");
   // A blind study has truths of several couplings too.
-  const bool swept = sweeps(sweep, "truth.coupling") || top.has("blind");
+  const bool swept = sweeps(root, "truth.coupling") || top.has("blind");
   Section truth = top.section("truth");
   study.has_truth = truth.present();
   study.truth = read_truth(truth, mounting, swept ? UnusedTables::allowed : UnusedTables::refused);
   study.filters = read_filters(top, mounting);
   study.monte_carlo = read_monte_carlo(top.section("monte_carlo"));
-  study.sweep = read_sweep(report, sweep);
+  study.sweep = read_sweep(report, root);
   study.published = read_published(top);
   if (Section blind = top.section("blind"); blind.present()) {
     study.blind = read_blind(blind);
@@ -242,6 +243,7 @@ Study read_study_text(std::string_view text, const std::string& path, const Over
   Study study = read_study_tree(root, path);
   study.overrides = overrides;
   try_sweep(root, study);
+  refuse_idle_axes(root, study);
   study.text = config::to_document(root);
   return study;
 }

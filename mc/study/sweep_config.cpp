@@ -24,12 +24,6 @@ void add_keys(const std::string& key, const Node& value, std::vector<std::string
   for (const config::Member& m : value.members) add_keys(key + "." + m.key, m.value, keys);
 }
 
-std::vector<std::string> keys_set_by(const config::Member& line) {
-  std::vector<std::string> keys;
-  for (const Node& value : line.value.items) add_keys(line.key, value, keys);
-  return keys;
-}
-
 /// Whether one key is the other or holds it.
 bool meet(std::string_view a, std::string_view b) {
   if (a.size() > b.size()) std::swap(a, b);
@@ -37,11 +31,11 @@ bool meet(std::string_view a, std::string_view b) {
 }
 
 /// A key that two lines set: one of the two would be without effect.
-void refuse_keys_set_twice(Report& report, const Node& sweep) {
+void refuse_keys_set_twice(Report& report, const Node& sweep, const Node& root) {
   for (std::size_t k = 1; k < sweep.members.size(); ++k)
     for (std::size_t n = 0; n < k; ++n)
-      for (const std::string& key : keys_set_by(sweep.members[k])) {
-        const auto other = keys_set_by(sweep.members[n]);
+      for (const std::string& key : keys_set_by(sweep.members[k], root)) {
+        const auto other = keys_set_by(sweep.members[n], root);
         if (std::ranges::none_of(other, [&](const std::string& o) { return meet(key, o); }))
           continue;
         report.error(
@@ -69,10 +63,18 @@ bool same(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
+std::vector<std::string> keys_set_by(const config::Member& line, const Node& root) {
+  std::vector<std::string> keys;
+  const std::string key = config::numbered(root, line.key);
+  for (const Node& value : line.value.items) add_keys(key, value, keys);
+  return keys;
+}
+
+std::vector<SweepAxis> read_sweep(Report& report, const Node& root) {
   constexpr std::size_t most_values = 10000;
   constexpr double most_points = 1e6;
   std::vector<SweepAxis> axes;
+  const Node* sweep = root.find("sweep");
   if (sweep == nullptr) return axes;
   double points = 1.0;
   config::Section section(report, sweep, sweep->at, "sweep");
@@ -105,7 +107,7 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
     report.given(fmt::format("sweep.\"{}\"", member.key), to_toml(values), member.at);
     axes.push_back(std::move(axis));
   }
-  refuse_keys_set_twice(report, *sweep);
+  refuse_keys_set_twice(report, *sweep, root);
   if (points > most_points)
     report.error(sweep->at,
                  fmt::format("[sweep] makes {:.0f} study points (expected at most {:.0f}). "
@@ -114,9 +116,10 @@ std::vector<SweepAxis> read_sweep(Report& report, const Node* sweep) {
   return axes;
 }
 
-bool sweeps(const Node* sweep, std::string_view key) {
+bool sweeps(const Node& root, std::string_view key) {
+  const Node* sweep = root.find("sweep");
   return sweep != nullptr && std::ranges::any_of(sweep->members, [&](const config::Member& line) {
-           const auto keys = keys_set_by(line);
+           const auto keys = keys_set_by(line, root);
            return std::ranges::find(keys, key) != keys.end();
          });
 }

@@ -26,7 +26,8 @@ STUDY = """# The study file
 
 Every key that the reader of study files knows, written by `tests/checks/generated.py` from `driftscope schema`. A file is TOML;
 numbers with a unit are texts ("1.45 deg/h/g"). `driftscope check FILE` prints every value of a file, defaults included, and where
-it came from. What one key asks of another, and a unit that does not fit, `check` says. Terms and parameters:
+it came from. What one key asks of another, and a unit that does not fit, `check` says. A parameter's own key goes before its
+group's (`eta_x` before `eta`), in whatever order they stand, and a position's before that of `[plan]`. Terms and parameters:
 [effects](effects.md); `[[term]]`: [own terms](own_terms.md); `[recording]`: [the recording](recording.md).
 """
 

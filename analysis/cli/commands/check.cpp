@@ -10,6 +10,7 @@
 #include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/servo_check.hpp"
 #include "mc/study/simulated_surroundings.hpp"
+#include "mc/study/study_notes.hpp"
 
 namespace drift::cli {
 namespace {
@@ -48,6 +49,7 @@ ExitCode check(const StudyArguments& arguments) {
         *gravity);
   say("{}", report::truth_memory_text(study, 0));
   say("{}", mc::servo_notes(study));
+  say("{}", mc::swept_sample_text(study));
   say("{}", still_to_check_text(study));
   return ExitCode::ok;
 }

@@ -15,6 +15,7 @@
 #include "analysis/report/study/truth_memory.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/base/results/turn.hpp"
+#include "mc/study/study_notes.hpp"
 
 namespace drift::cli {
 namespace {
@@ -68,6 +69,7 @@ ExitCode rank(const StudyArguments& arguments, const RankArguments& options) {
     say("note: the values of {} in [sweep] are not ranked, those above it are. Rank them "
         "one by one with --set\n",
         study.sweep.front().key);
+  say("{}", mc::swept_sample_text(study));
   say("{}", report::truth_memory_text(study, 0));
   planning::RankOptions what;
   what.improve = options.improve;

@@ -149,11 +149,13 @@ Json described(const StudyKey& key) {
     return rule;
   }
   const bool number = key.kind == Kind::quantity || key.kind == Kind::number,
-             has_range = number && key.option.max < std::numeric_limits<double>::max();
+             has_range = number && key.option.max < std::numeric_limits<double>::max(),
+             has_words = number && !key.option.doc.empty();
   const bool also_listed = key.kind == Kind::whole && key.key == "starts";
   rule["description"] = fmt::format(
-      "{}: {}{}{}{}", key.path, key.expected, has_range ? ", " : "",
-      has_range ? config::range_text(key.option) : "",
+      "{}: {}{}{}{}{}{}", key.path, key.expected, has_range ? ", " : "",
+      has_range ? config::range_text(key.option) : "", has_words ? ": " : "",
+      has_words ? key.option.doc : "",
       also_listed ? ", or a list of tables: what each start has other than the prior means" : "");
   if (key.kind == Kind::quantity)
     rule["examples"] = Json::array({fmt::format("1 {}", key.option.unit.symbol.view())});

@@ -17,6 +17,7 @@
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
 #include "mc/store/study_state.hpp"
+#include "mc/study/study_notes.hpp"
 #include "mc/task/campaign.hpp"
 
 namespace drift::cli {
@@ -137,6 +138,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
         "mpirun "
         "of Open MPI or srun --mpi=pmix");
   require_results_folder({folder, "run"});
+  if (ranks.leader()) say("{}{}", mc::idle_settings_text(study), mc::swept_sample_text(study));
   if (given.dry_run) return dry_run({work, manifest, folder, !given.runs}, options, ranks);
   mc::claim_folder(folder, manifest);
   if (!given.runs) options.runs = runs_to_go_on_to(folder, options.runs, ranks.leader());

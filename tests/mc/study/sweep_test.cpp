@@ -149,6 +149,38 @@ TEST(Sweep, RefusesAKeyThatTwoLinesSet) {
   EXPECT_TRUE(found(noise + "readout = [{ accelerometer_noise = \"1 ug\" }]\n").empty());
 }
 
+TEST(Sweep, RefusesAKeyThatTwoLinesSetByNameAndByNumber) {
+  const auto found = [](const std::string& text, const std::string& sweep) {
+    return mistakes(text + "[sweep]\n" + sweep);
+  };
+  const std::string couplings = " = [\"eq5\", \"eq6\"]\n";
+  const auto filters = found(
+      small_study, "\"filter.right.coupling\"" + couplings + "\"filter.0.coupling\"" + couplings);
+  ASSERT_EQ(filters.size(), 1u);
+  EXPECT_NE(filters[0].find("study.toml:27:1: 'sweep.\"filter.0.coupling\"' sets "
+                            "filter.0.coupling, and so does 'sweep.\"filter.right.coupling\"'"),
+            std::string::npos)
+      << filters[0];
+  EXPECT_TRUE(found(small_study,
+                    "\"filter.right.coupling\"" + couplings + "\"filter.1.coupling\"" + couplings)
+                  .empty());
+  std::string listed = small_study;
+  listed.replace(listed.find("preset = \"six\"\n"), 15, "");
+  listed.insert(listed.find("[truth]"),
+                "[[plan.position]]\nname = \"up\"\naxes = \"x=N y=W z=U\"\n");
+  const std::string dwells = " = [\"10 min\", \"20 min\"]\n";
+  EXPECT_EQ(
+      found(listed, "\"plan.position.0.dwell\"" + dwells + "\"plan.position.up.dwell\"" + dwells)
+          .size(),
+      1u);
+  EXPECT_EQ(found(small_study,
+                  "\"filter.right\" = [{ coupling = \"eq6\" }, { starts = 3 }]\n"
+                  "\"filter.0.coupling\"" +
+                      couplings)
+                .size(),
+            1u);
+}
+
 TEST(Sweep, KeepsItsOrderWhereTheStudyIsWrittenDown) {
   const std::string text = small_study +
                            "[sweep]\nreadout = [{ gimbal_noise = \"1 arcsec\" }, { gimbal_noise = "
