@@ -35,8 +35,15 @@ std::vector<Caging> cagings_of(const std::vector<Passage>& passages) {
   return all;
 }
 
-Mat3 turned(const Mat3& R_lp, double turn) {
-  return case_attitude(turn) * R_lp;
+/// A position turned about Up [rad]; empty where `axes` cannot say so. Turns about its own axes
+/// come behind them and stay.
+std::optional<Position> turned(Position p, double turn) {
+  const Mat3 own = rotation_of(p.turns);
+  auto attitude = planning::attitude_of(case_attitude(turn) * p.R_lp * own.transpose());
+  if (!attitude) return std::nullopt;
+  p.axes = std::move(attitude->axes);
+  p.R_lp = attitude->R_lp * own;
+  return p;
 }
 
 /// Earth rate in the axes of the plan, summed over the dwells of each position [rad/s].
@@ -69,7 +76,7 @@ double nearest_turn(const TestPlan& plan, const Caging& positions, const Vec3& e
       return std::abs(std::remainder(shown - t, 4.0 * right_angle));
     };
     if (off(turn) < off(best) && std::ranges::all_of(positions, [&](std::size_t p) {
-          return planning::attitude_of(turned(plan.positions[p].R_lp, turn)).has_value();
+          return turned(plan.positions[p], turn).has_value();
         }))
       best = turn;
   }
@@ -83,10 +90,7 @@ std::vector<Position> turned_plan(const TestPlan& plan, const std::vector<Passag
   for (std::size_t p = 0; p < positions.size(); ++p) {
     // Headings that the plan left open were chosen: the case stood as its gimbals say.
     if (gimbals) positions[p].case_heading = passages[p].dwell.heading1 + turns[p];
-    if (turns[p] == 0.0) continue;
-    const auto attitude = planning::attitude_of(turned(positions[p].R_lp, turns[p]));
-    positions[p].axes = attitude->axes;
-    positions[p].R_lp = attitude->R_lp;
+    if (turns[p] != 0.0) positions[p] = turned(std::move(positions[p]), turns[p]).value();
   }
   return positions;
 }

@@ -11,7 +11,7 @@ constexpr double longer = 3.0;  // long dwells over usual ones
 
 std::string description(const Position& p, double usual_dwell) {
   return fmt::format(
-      "{}, {}{}{}{}", p.axes, key_of(p.mode), p.entry == Entry::torqued ? ", slewed" : "",
+      "{}, {}{}{}{}", attitude_text(p), key_of(p.mode), p.entry == Entry::torqued ? ", slewed" : "",
       p.case_heading ? fmt::format(", case at {:.0f} deg", *p.case_heading / unit::deg.to_si) : "",
       p.dwell == usual_dwell ? "" : fmt::format(", for {:.3g} min", p.dwell / unit::minute.to_si));
 }

@@ -23,6 +23,12 @@ config::Node position_node(const Position& p) {
   };
   add("name", p.name);
   add("axes", p.axes);
+  if (p.turns.size() == 1) add("turn", p.turns.front().text);
+  if (p.turns.size() > 1) {
+    config::Node list = config::list_node({});
+    for (const AxisTurn& turn : p.turns) list.items.push_back(config::text_node(turn.text));
+    node.members.push_back({"turn", {}, std::move(list)});
+  }
   add("dwell", time_text(p.dwell));
   add("sample", fmt::format("{} s", p.sample));
   add("mode", std::string(key_of(p.mode)));

@@ -24,7 +24,8 @@ struct DeclaredKey {
     quantity,  ///< a number with a unit
     vector,    ///< three values
     matrix,    ///< three rows of three values
-    text
+    text,
+    text_or_list,  ///< a text, or a list of texts
   };
   std::string section;  ///< "plan.position.0"; of the whole file empty
   std::string key;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/config/nearest.hpp"
+#include "core/plan/attitude/axis_turn_config.hpp"
 #include "core/plan/case_heading.hpp"
 #include "core/plan/readout_config.hpp"
 
@@ -91,6 +92,8 @@ Position read_position(Section section, std::size_t number, const PlanDefaults& 
                       "y=W z=U\"). Correct the directions N S E W U D",
                       section.full("axes"), p.axes, why));
   }
+  p.turns = read_turns(section);
+  p.R_lp = p.R_lp * rotation_of(p.turns);
   const bool own = section.has("dwell") || section.has("sample");
   read_dwell(section, p.dwell, p.sample, own ? Checked::here : inherited);
   section.read(Option{.key = "mode", .doc = "command law"}, p.mode, command_laws);

@@ -97,4 +97,10 @@ std::optional<Mat3> parse_axes(std::string_view text, std::string& why) {
   return R_lp;
 }
 
+std::string attitude_text(const Position& position) {
+  std::string text = position.axes;
+  for (const AxisTurn& turn : position.turns) text += ", " + turn.text;
+  return text;
+}
+
 }  // namespace drift

@@ -8,6 +8,7 @@
 #include "core/base/linalg.hpp"
 #include "core/base/named.hpp"
 #include "core/base/units.hpp"
+#include "core/plan/attitude/axis_turn.hpp"
 
 namespace drift {
 
@@ -37,6 +38,7 @@ constexpr std::string_view key_of(Entry entry) {
 struct Position {
   std::string name;
   std::string axes;              ///< "x=N y=W z=U", as given
+  std::vector<AxisTurn> turns;   ///< of the platform from there, in order
   Mat3 R_lp = Mat3::Identity();  ///< nominal attitude at the start of the dwell, v_l = R_lp v_p
   double dwell = 3600.0;         ///< [s]
   double sample = 60.0;          ///< sample interval of dwell and slew [s]
@@ -73,5 +75,8 @@ std::optional<TestPlan> preset_plan(std::string_view name, const PlanDefaults& d
 /// between them) of each platform axis. Empty, with the reason in `why`, if it is no right-handed
 /// frame.
 std::optional<Mat3> parse_axes(std::string_view text, std::string& why);
+
+/// The attitude of a position as people read it: "x=N y=W z=U, 10 deg about y".
+std::string attitude_text(const Position& position);
 
 }  // namespace drift

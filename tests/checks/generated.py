@@ -38,6 +38,9 @@ The positions of every preset of `plan.preset`, in order, as `driftscope check` 
 `tests/checks/generated.py`. A recording numbers its positions like this (column `position`), or `[recording] positions` says
 which is which. axes: where the platform's axes point, of N(orth), E, S, W, U(p), D(own); two letters: half way between. case: heading
 of the case, from North over West, that keeps the middle gimbal below 60 deg (`case_heading` of a recording). Another order, or other attitudes, are written position by position ([the study file](study.md), `plan.position[]`).
+There `turn` turns the platform on from `axes`, about one of its own axes, right-handed and by any angle; of a list every turn is about
+an axis as the turn before left it. A tumble about y in steps of 30 deg is twelve positions with `axes = "x=N y=W z=U"` and
+`turn = "30 deg about y"`, `"60 deg about y"` and so on; at the second x has sunk by 30 deg and reads -0.5 g.
 """
 
 

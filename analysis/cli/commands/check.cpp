@@ -19,12 +19,15 @@ namespace {
 /// that the middle gimbal asks for.
 void show_positions(const TestPlan& plan, const Site& site) {
   const std::vector<Passage> passages = plan_passages(plan, site);
-  show("\n{:>8}  {:<36}  {:<18}  {:>8}  {:<5}  {:<7}  {}\n", "position", "name", "axes", "case",
-       "mode", "entry", "dwell");
+  std::size_t width = 18;
+  for (const Position& p : plan.positions) width = std::max(width, attitude_text(p).size());
+  show("\n{:>8}  {:<36}  {:<{}}  {:>8}  {:<5}  {:<7}  {}\n", "position", "name", "axes", width,
+       "case", "mode", "entry", "dwell");
   for (std::size_t k = 0; k < plan.positions.size(); ++k) {
     const Position& p = plan.positions[k];
-    show("{:>8}  {:<36}  {:<18}  {:>4.4g} deg  {:<5}  {:<7}  {:g} min\n", k + 1, p.name, p.axes,
-         passages[k].dwell.heading0 / detail::deg, key_of(p.mode), key_of(p.entry), p.dwell / 60.0);
+    show("{:>8}  {:<36}  {:<{}}  {:>4.4g} deg  {:<5}  {:<7}  {:g} min\n", k + 1, p.name,
+         attitude_text(p), width, passages[k].dwell.heading0 / detail::deg, key_of(p.mode),
+         key_of(p.entry), p.dwell / 60.0);
   }
 }
 

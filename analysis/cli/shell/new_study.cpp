@@ -134,7 +134,7 @@ RecordedSite site_of(const LookedAt& seen, const std::string& path) {
 std::string turned_text(const RecordedPlan& plan) {
   std::vector<std::string> numbers;
   for (std::size_t i = 0; i < plan.positions.size(); ++i)
-    if (!plan.positions[i].turned.empty()) numbers.push_back(fmt::format("{}", i + 1));
+    if (!plan.positions[i].turned.axes.empty()) numbers.push_back(fmt::format("{}", i + 1));
   if (numbers.empty()) return "";
   return fmt::format(
       "Position{} {} {} half way between two directions if the case faced North; if its heading "

@@ -34,22 +34,34 @@ Vec3 mean_force(const Recording& r, std::size_t first, std::size_t end) {
   return sum;
 }
 
-/// The directions N, S, W, E, U, D, or half way between two of them, nearest to the axes that the
-/// gimbals show; empty without gimbal angles, and where an axis lies between three.
-std::optional<std::string> cardinal_axes(const Recording& r, std::size_t row, double heading) {
-  const double shares = std::sin(22.5 * detail::deg);  // nearer to half way than to the other one
+/// Whether accelerometers have Up where gimbals have it: else steps of a few degrees are no turns
+/// of the platform, but the zero of a gimbal.
+bool show_one_up(const Vec3& force, const Vec3& gimbals) {
+  constexpr double apart = 2.0 * detail::deg;
+  const Vec3 up = gimbal_chain(gimbals).row(2);
+  return std::atan2(force.cross(up).norm(), force.dot(up)) < apart;
+}
+
+/// What gimbals show of an attitude, R_lp, and by what it may be off [rad].
+struct Seen {
+  Mat3 R_lp;
+  double room = 0.0;
+};
+
+/// The attitude at the begin of a row, at the end of which the gimbals are read: the platform
+/// turned in it as in the next row, if that is there. Empty without gimbal angles.
+std::optional<Seen> seen_at(const Recording& r, std::size_t row, std::size_t end, double length) {
   const auto angles = measured(r, gimbal_channels, row);
   if (!angles) return std::nullopt;
-  const Mat3 R_lp = case_attitude(heading) * gimbal_chain(*angles);
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::string letters;
-    for (int l = 0; l < 3; ++l)
-      if (std::abs(R_lp(l, axis)) > shares) letters += (R_lp(l, axis) > 0.0 ? "NWU" : "SED")[l];
-    if (letters.size() > 2) return std::nullopt;
-    text += fmt::format("{}{}={}", axis == 0 ? "" : " ", "xyz"[axis], letters);
-  }
-  return text;
+  const Mat3 R = gimbal_chain(*angles);
+  const double drift = detail::earth_rate * length;
+  const auto next = row + 1 < end ? measured(r, gimbal_channels, row + 1) : std::nullopt;
+  if (!next) return Seen{R, drift};
+  const auto& time = r.find("time")->values;
+  const Vec3 turn = rotation_vector(Mat3(R.transpose() * gimbal_chain(*next))) *
+                    (length / (time[row + 1] - time[row]));
+  constexpr double twice = 2.0;  // the Earth's rate: more is no drift
+  return turn.norm() < twice * drift ? Seen{R * rotation<double>(-turn), 0.0} : Seen{R, drift};
 }
 
 /// To six digits, so that whole numbers of samples are whole as they are written, too.
@@ -142,6 +154,7 @@ RecordedPlan recorded_plan(const Recording& r) {
   plan.headings = heading != nullptr;
   std::vector<TwoUps> seen;
   std::vector<std::string> ups;
+  Mat3 drifted = Mat3::Identity();  // the position before, against its nominal attitude; local axes
   for (const auto& [first, end, dwell] : rows) {
     const std::size_t shows = row_of_attitude(r, dwell, end);
     RecordedPlan::Position p{.torqued = dwell > first};
@@ -151,15 +164,25 @@ RecordedPlan recorded_plan(const Recording& r) {
     const double sample = p.sample.value_or(plan.sample);
     p.length = in_whole_samples(time->values[end - 1] - time->values[dwell] + sample, sample);
     if (heading) p.heading = heading->values[row_of_heading(heading->values, dwell, end)];
-    const auto shown = cardinal_axes(r, shows, p.heading.value_or(0.0));
-    if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
-    plan.north = plan.north && shown;
-    const auto turned = cardinal_axes(r, shows, p.heading.value_or(0.0) + 45.0 * detail::deg);
-    if (!heading && shown && turned && shown->size() > turned->size()) p.turned = *turned;
-    p.axes = shown ? *shown : axes_of(mean_force(r, dwell, end));
     const std::size_t row = std::min(shows + 2, end - 1);  // the first may be of the turn
     const auto force = measured(r, accelerometer_channels, row),
                angles = measured(r, gimbal_channels, row);
+    const auto there = seen_at(r, shows, end, spacing.usual[shows]);
+    const bool rough = p.torqued || (force && angles && !show_one_up(*force, *angles));
+    if (!p.torqued) drifted.setIdentity();
+    const auto in_case = [&](double direction) -> std::optional<ShownAttitude> {
+      if (!there) return std::nullopt;
+      return shown_attitude(drifted.transpose() * case_attitude(direction) * there->R_lp,
+                            rough ? largest_mismatch : there->room);
+    };
+    const auto shown = in_case(p.heading.value_or(0.0));
+    if (shown)
+      drifted = case_attitude(p.heading.value_or(0.0)) * there->R_lp * shown->R_lp.transpose();
+    if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
+    plan.north = plan.north && shown;
+    const auto turned = in_case(45.0 * detail::deg);
+    if (!heading && shown && turned->plainer_than(*shown)) p.turned = *turned;
+    p.attitude = shown ? *shown : ShownAttitude{axes_of(mean_force(r, dwell, end))};
     if (force && angles) {
       seen.push_back({plan.positions.size() + 1, *force, *angles});
       ups.push_back(axes_of(*force));
@@ -177,9 +200,9 @@ RecordedPlan recorded_plan(const Recording& r) {
   plan.north = false;
   for (std::size_t k = 0; k < seen.size(); ++k) {
     RecordedPlan::Position& p = plan.positions[seen[k].position - 1];
-    p.axes = ups[k];
+    p.attitude = {ups[k]};
     p.heading.reset();
-    p.turned.clear();
+    p.turned = {};
   }
   return plan;
 }
@@ -191,7 +214,7 @@ double RecordedPlan::common_dwell() const {
 RecordedPlan plan_to_come(std::size_t positions) {
   constexpr double sample = 60.0, dwell = 3600.0;  // [s]
   RecordedPlan plan{.sample = sample, .to_come = true};
-  plan.positions.assign(positions, {.length = dwell, .axes = "x=N y=W z=U"});
+  plan.positions.assign(positions, {.length = dwell, .attitude = {"x=N y=W z=U"}});
   return plan;
 }
 

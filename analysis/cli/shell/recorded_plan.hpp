@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/cli/shell/shown_attitude.hpp"
 #include "core/recording/recording.hpp"
 
 namespace drift::cli {
@@ -12,11 +13,11 @@ namespace drift::cli {
 struct RecordedPlan {
   struct Position {
     double length = 0.0;              ///< of the dwell [s], a whole number of its samples
-    std::string axes{};               ///< "x=N y=W z=U"
+    ShownAttitude attitude{};         ///< at its beginning
     bool torqued = false;             ///< slewed to, as the phases say
     bool level = false;               ///< Earth rate is commanded in the dwell
     std::optional<double> heading{};  ///< of the case [rad], where it is recorded
-    std::string turned{};             ///< the axes if the case was at 45 deg; empty: less likely
+    ShownAttitude turned{};           ///< if the case was at 45 deg; without axes: less likely
     std::optional<double> sample{};   ///< of its own [s], where it is not that of the plan
   };
   double sample = 0.0;          ///< of most rows of the dwells [s]
@@ -33,9 +34,8 @@ struct RecordedPlan {
   double common_dwell() const;
 };
 
-/// Dwells, samples and attitudes (the nearest cardinal ones) of a platform's recording: from the
-/// gimbal angles at the beginning of each dwell, or, without them, what is up from the
-/// accelerometers.
+/// Dwells, samples and attitudes of a platform's recording: from the gimbal angles at the beginning
+/// of each dwell, or, without them, what is up from the accelerometers.
 RecordedPlan recorded_plan(const Recording& recording);
 
 /// As many positions, all alike, as a recording names that cannot be read yet.

@@ -119,6 +119,10 @@ Json rule_of(const StudyKey& key) {
       return {{"type", "array"}};
     case Kind::list_or_table:
       return Json::object();
+    case Kind::text_or_list: {
+      const Json text = {{"type", "string"}};
+      return {{"anyOf", {text, {{"type", "array"}, {"items", text}, {"minItems", 1}}}}};
+    }
     case Kind::choice:
       return {{"enum", key.choices}};
     case Kind::truth_value:

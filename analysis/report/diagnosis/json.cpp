@@ -175,8 +175,12 @@ Json plan_json(const std::vector<Position>& plan) {
   Json positions = Json::array();
   for (const Position& p : plan) {
     Json one = Json::object();
-    for (const auto& member : planning::position_node(p).members)
-      one[member.key] = member.value.text;
+    for (const auto& [key, at, value] : planning::position_node(p).members) {
+      one[key] = value.text;
+      if (value.items.empty()) continue;
+      one[key] = Json::array();
+      for (const auto& item : value.items) one[key].push_back(item.text);
+    }
     positions.push_back(std::move(one));
   }
   return {{"position", std::move(positions)}};

@@ -132,8 +132,8 @@ Section advice(const Diagnosis& d) {
     if (a.plan.empty()) continue;
     Table table("Positions to add", "<name | <axes | dwell | <mode | <entry | case heading");
     for (const Position& p : a.plan)
-      table.add({p.name, p.axes, fmt::format("{:.0f} min", p.dwell / 60.0), key_of(p.mode),
-                 key_of(p.entry),
+      table.add({p.name, attitude_text(p), fmt::format("{:.0f} min", p.dwell / 60.0),
+                 key_of(p.mode), key_of(p.entry),
                  p.case_heading ? fmt::format("{:.0f} deg", *p.case_heading / unit::deg.to_si)
                                 : "chosen"});
     section.add({{table, On::page}, {Preformatted{planning::positions_toml(a.plan)}, On::page}});

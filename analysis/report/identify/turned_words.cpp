@@ -59,6 +59,7 @@ Json heading_json(const identification::HeadingDoubt& doubt) {
          {"turn_deg", degrees(t.turn)},
          {"axes", p.axes},
          {"case_heading_deg", p.case_heading ? Json(degrees(*p.case_heading)) : Json(nullptr)}});
+    for (const AxisTurn& own : p.turns) turned.back()["turns_of_platform"].push_back(own.text);
   }
   return {{"turned", std::move(turned)},
           {"chi2_per_dof_before", doubt.chi2_per_dof_before},

@@ -100,7 +100,7 @@ Table improvement_table(const planning::PlanRanking& rank) {
     const std::string entry(key_of(s.position.entry));
     const auto& heading = s.position.case_heading;
     const double degrees = heading ? *heading / detail::deg : 0.0;
-    t.add({i + 1, s.position.name, s.position.axes, key_of(s.position.mode),
+    t.add({i + 1, s.position.name, attitude_text(s.position), key_of(s.position.mode),
            Cell(entry, heading ? fmt::format("{}, case at {:.0f} deg", entry, degrees) : entry),
            only_value(heading ? Value(degrees) : Value()), s.duration / unit::hour.to_si,
            digits(s.before, 4), digits(s.after, 4), s.feasible});

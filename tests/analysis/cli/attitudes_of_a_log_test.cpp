@@ -134,5 +134,26 @@ TEST(AttitudesOfALog, RowsOfAnotherPositionAtEitherEndChangeNoAttitude) {
   for (const int late : {-2, -1, 1, 2}) EXPECT_EQ(attitudes(late), right) << late;
 }
 
+TEST(AttitudesOfALog, OfATumbleAreDirectionsAndTurns) {
+  std::string plan;
+  for (int k = 0; k < 12; ++k)
+    plan += fmt::format("[[plan.position]]\naxes = \"x=N y=W z=U\"\nturn = \"{} deg about y\"\n",
+                        30 * k);
+  const ScratchFolder folder;
+  const std::string made = folder.write("made.toml",
+                                        replaced(replaced(short_study, "preset = \"six\"\n", ""),
+                                                 "[readout]", plan + "[readout]")),
+                    own = folder.file("own.csv"), file = folder.file("lab.toml");
+  ASSERT_EQ(driftscope("simulate " + made + " -o " + own).code, 0);
+  ASSERT_EQ(driftscope("new platform " + own + " -o " + file).code, 0);
+  const std::string study = text_of(file);
+  EXPECT_TRUE(has(study, "axes  = \"x=N y=W z=U\"\nturn  = \"30 deg about y\"\n")) << study;
+  EXPECT_TRUE(has(study, "axes  = \"x=D y=W z=N\"\nturn  = \"-30 deg about y\"\n")) << study;
+  EXPECT_TRUE(has(study, "# The axes are those that the gimbal angles show")) << study;
+  const Answer table = driftscope("check " + made);
+  EXPECT_TRUE(has(table.out, "x=N y=W z=U, 330 deg about y  ")) << table.out;
+  EXPECT_EQ(driftscope("identify " + file + " " + own + " --quiet").code, 0);
+}
+
 }  // namespace
 }  // namespace drift::attitudes_of_a_log_test

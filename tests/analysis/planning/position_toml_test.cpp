@@ -10,7 +10,7 @@ namespace {
 
 TEST(PositionToml, ReadsBackAsThePositions) {
   std::string why;
-  std::vector<Position> written(2);
+  std::vector<Position> written(4);
   written[0].name = "a \"quoted\" \\ name";
   written[0].axes = "x=UN y=W z=US";
   written[0].dwell = 1234.5;
@@ -21,6 +21,15 @@ TEST(PositionToml, ReadsBackAsThePositions) {
   written[1].dwell = 7200.0;
   written[1].mode = CommandLaw::level;
   written[1].entry = Entry::torqued;
+  // Angles that no double of degrees says shorter, and more than one turn.
+  const AxisTurn tilt{"0.1 rad about y", 1, 0.1},
+      more{"-7.123456789012345678 deg about x", 0, -7.123456789012345678 * detail::deg};
+  written[2].name = "turned";
+  written[2].axes = "x=N y=W z=U";
+  written[2].turns = {tilt};
+  written[3].name = "turned twice";
+  written[3].axes = "x=UN y=W z=US";
+  written[3].turns = {tilt, more};
   const test::ScratchFolder folder;
   const mc::Study study = mc::read_study(folder.write(
       "s.toml", "schema = 1\n[site]\nlatitude = \"45 deg\"\n[plan]\n" + positions_toml(written) +
@@ -29,7 +38,8 @@ TEST(PositionToml, ReadsBackAsThePositions) {
   for (std::size_t k = 0; k < written.size(); ++k) {
     const Position &is = study.plan.positions[k], &was = written[k];
     EXPECT_EQ(is.name, was.name);
-    EXPECT_EQ(is.R_lp, parse_axes(was.axes, why).value());
+    EXPECT_EQ(attitude_text(is), attitude_text(was));
+    EXPECT_EQ(is.R_lp, parse_axes(was.axes, why).value() * rotation_of(was.turns));
     EXPECT_DOUBLE_EQ(is.dwell, was.dwell);
     EXPECT_DOUBLE_EQ(is.sample, was.sample);
     EXPECT_EQ(is.mode, was.mode);

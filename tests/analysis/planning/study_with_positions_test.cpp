@@ -38,6 +38,12 @@ axes = "x=N y=W z=U"
 [[plan.position]]
 axes  = "x=N y=U z=E"
 dwell = "5 min"
+[[plan.position]]
+axes  = "x=N y=W z=U"
+turn  = "10 deg about y"
+[[plan.position]]
+axes  = "x=N y=W z=U"
+turn  = ["10 deg about y", "0.2 rad about x"]
 )";
 
 mc::Study study(const std::string& plan, const std::string& more = "",
@@ -60,8 +66,8 @@ Position added() {
 void expect_position(const Position& is, const Position& was, const std::string& what) {
   std::string why;
   EXPECT_EQ(is.name, was.name) << what;
-  EXPECT_EQ(is.axes, was.axes) << what;
-  EXPECT_LT((is.R_lp - parse_axes(was.axes, why).value()).norm(), 1e-14) << what;
+  EXPECT_EQ(attitude_text(is), attitude_text(was)) << what;
+  EXPECT_EQ(is.R_lp, parse_axes(was.axes, why).value() * rotation_of(was.turns)) << what;
   EXPECT_DOUBLE_EQ(is.dwell, was.dwell) << what;
   EXPECT_DOUBLE_EQ(is.sample, was.sample) << what;
   EXPECT_EQ(is.mode, was.mode) << what;
@@ -131,6 +137,11 @@ TEST(StudyWithPositions, SweepsNothingThatItsPositionsDecide) {
   EXPECT_TRUE(extended_and_read(table, "table").sweep.empty());
 
   // That of one position still changes it.
+  const mc::Study tumble =
+      study(listed,
+            "[sweep]\n\"plan.position.mine.turn\" = [\"30 deg about y\", [\"30 deg about "
+            "y\", \"5 deg about x\"]]\n");
+  EXPECT_EQ(swept(extended_and_read(tumble, "tumble")), Keys{"plan.position.mine.turn"});
   const mc::Study one =
       study(listed, "[sweep]\n\"plan.position.mine.dwell\" = [\"10 min\", \"20 min\"]\n");
   EXPECT_EQ(swept_of_plan(one), Keys{});

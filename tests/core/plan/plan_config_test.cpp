@@ -2,30 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/check.hpp"
-#include "core/config/load.hpp"
+#include "tests/support/plan_text.hpp"
 
 namespace drift::plan_config_test {
 namespace {
 
-struct Read {
-  std::vector<std::string> mistakes;
-  PlanConfig config;
-};
+using Read = test::PlanRead;
 
 Read read(const std::string& text) {
-  const config::Node root = config::parse_document("[plan]\n" + text, "t.toml");
-  config::Report report("t.toml");
-  config::Section top(report, &root, {}, "");
-  Read result;
-  result.config = read_plan(top.section("plan"));
-  top.finish();
-  try {
-    report.throw_if_wrong();
-  } catch (const InputError& error) {
-    result.mistakes = error.messages();
-  }
-  return result;
+  return test::read_plan_text(text);
 }
 
 TEST(PlanConfig, EveryPresetIsKnown) {
