@@ -65,7 +65,8 @@ void RunInputs::add_plan(const TestPlan& plan, const Site& site) {
   const std::vector<Passage> passages = plan_passages(plan, site);
   for (std::size_t p = 0; p < passages.size(); ++p) {
     // Of a position the rest is resolved in its passage, or is a text.
-    const auto& [name, axes, R_lp, dwell, sample, mode, entry, case_heading] = plan.positions[p];
+    const auto& [name, axes, turns, R_lp, dwell, sample, mode, entry, case_heading] =
+        plan.positions[p];
     const auto& [caged, approach, dwelling] = passages[p];
     add(R_lp, sample, caged, approach.size());
     for (const Stretch& stretch : approach) add(stretch);
