@@ -7,6 +7,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/words.hpp"
+#include "core/physics/own/own_terms.hpp"
 #include "mc/study/no_effect.hpp"
 #include "mc/study/run_inputs.hpp"
 #include "mc/study/sweep_config.hpp"
@@ -106,6 +107,7 @@ std::string place_text(const config::Member& line, const std::string& path) {
 void refuse_idle_axes(const Node& root, const Study& study) {
   const Node* sweep = root.find("sweep");
   if (sweep == nullptr) return;
+  const KeptOwnTerms kept;
   PointsRead points(root, study);
   std::vector<std::string> messages;
   for (std::size_t a = 0; a < study.sweep.size(); ++a) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/sha256.hpp"
+#include "core/physics/own/own_terms.hpp"
 #include "core/plan/case_heading.hpp"
 
 namespace drift::mc {
@@ -41,6 +42,9 @@ class RunInputs {
   template <class Derived>
   void put(const Eigen::MatrixBase<Derived>& values) {
     for (const double v : values.reshaped()) numbers_.push_back(v);
+  }
+  void put(const std::string& text) {
+    for (const char c : text) put(static_cast<int>(c));
   }
   void put(const Prior& prior) {
     const auto& [kind, a, b] = prior;
@@ -151,6 +155,8 @@ std::string run_inputs(const Study& study) {
   for (const CovariateSpec& c : known_covariates)
     if ((followed & c.set()) != 0) inputs.add_course(study.environment[c]);
   inputs.add_truth(study.truth, axes);
+  for (const OwnTerm& term : own_terms().terms)
+    inputs.add(term.declaration.size(), term.declaration);
   inputs.add(study.filters.size());
   for (const FilterSpec& filter : study.filters) inputs.add_filter(filter, axes);
   const auto& [runs, seed, allowed_failures, design, estimator, healthy_sigma, stop] =
