@@ -13,7 +13,7 @@ namespace drift::mc {
 /// positions, a preset for positions, 60 s for 1 min. What no run reads is not in it: names and
 /// notes, gravity, the noise of what is not read, rates of slews where there is none, settings of
 /// another coupling, surroundings that no term follows. Nor is what the points of a sweep share:
-/// how many runs there are, their seed, the study's own terms.
+/// how many runs there are, their seed.
 ///
 /// Empty of a study that has no runs: of no platform, or without [truth] or filters.
 std::string run_inputs(const Study& study);
