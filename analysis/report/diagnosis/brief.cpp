@@ -12,6 +12,9 @@
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/base/words.hpp"
+#include "core/physics/closure.hpp"
+#include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
 
@@ -30,6 +33,47 @@ std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
     if (const auto* left = std::get_if<remark::StrongestLeft>(&r); left && !left->labels.empty())
       return *left;
   return std::nullopt;
+}
+
+/// A key of the nominal model, as --set takes it. It is the first filter, and a name that would
+/// have to be quoted is left to its number.
+std::string key_of_nominal(const FilterSpec& nominal, std::string_view key) {
+  const bool plain = shell_word(nominal.name) == nominal.name &&
+                     nominal.name.find_first_of(".=") == std::string::npos;
+  return fmt::format("filter.{}.{}", plain ? nominal.name : "0", key);
+}
+
+/// The parameters that a candidate's line names: "accelerometer K0" those of K0.
+ParamMask named_by(std::string_view label) {
+  ParamMask all;
+  for (std::size_t end = label.find(' '); end != label.npos; end = label.find(' ')) {
+    label.remove_prefix(end + 1);
+    all |= params_named(label.substr(0, label.find(' ')));
+  }
+  return all.any() ? all : params_named(label);
+}
+
+/// How the nominal model gets an effect, with the key that does it where one does. A list of terms
+/// that may be there by default is none that could be added to.
+std::string diagnosed_with(const FilterSpec& nominal, std::string_view label) {
+  const std::string term(label.substr(0, label.find(' ')));
+  const auto other = facts(nominal.coupling).other;
+  if (term == closure_term && other)
+    return fmt::format("Diagnose again under the other equation: --set \"{}={}\".",
+                       key_of_nominal(nominal, "coupling"), key_of(*other));
+  if ((named_by(label) & ~nominal.active).none())
+    return fmt::format("Give the first, {}, a prior in [filter.parameters] and diagnose again.",
+                       label);
+  ParamMask listed = nominal.active;
+  listed.reset(closure_param);  // of the coupling
+  const std::string added =
+      listed == base_parameters()
+          ? shell_word(fmt::format(
+                "{}=[\"{}\"]", key_of_nominal(nominal, "terms"),
+                fmt::join(terms_text(nominal.active | TermLibrary::completed(params_named(term))),
+                          "\", \"")))
+          : fmt::format("\"{}+={}\"", key_of_nominal(nominal, "terms"), term);
+  return fmt::format("Diagnose again with the first in the model: --set {}.", added);
 }
 
 /// Whether the plan tells already what was asked: that leaves the next step to others.
@@ -92,7 +136,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
       other && std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
     return fmt::format(
         "Next: diagnose again under the other equation, and see what is missing: --set {}.",
-        shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
+        shell_word(fmt::format("{}={}", key_of_nominal(d.nominal, "coupling"), key_of(*other))));
   if (declares_noise(d))
     return fmt::format(
         "Next: identify with patched.toml, the study with the noise that was found{}: the sigmas "
@@ -107,10 +151,8 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "another recording.",
         d.proposal->acts_on, d.proposal->equation, place.empty() ? "" : ", ", place);
   if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
-    return fmt::format(
-        "Next: more than one effect, or one of another shape, seems to be missing. Diagnose again "
-        "with the first in the model: --set \"filter.{}.terms+={}\".",
-        d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
+    return "Next: more than one effect, or one of another shape, seems to be missing. " +
+           diagnosed_with(d.nominal, left->labels.front());
   return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice);
 }
 
