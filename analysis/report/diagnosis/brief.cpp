@@ -8,6 +8,7 @@
 #include "analysis/report/diagnosis/remark_words.hpp"
 #include "analysis/report/diagnosis/sections.hpp"
 #include "analysis/report/diagnosis/sentence.hpp"
+#include "analysis/report/diagnosis/too_large.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
@@ -196,6 +197,9 @@ std::string headline(const Diagnosis& d) {
 InBrief diagnosis_in_brief(const Diagnosis& d) {
   InBrief brief;
   brief.verdict = headline(d);
+  // Another prior, and the verdict would be another.
+  if (d.verdict == Verdict::named && nearest_is_too_large(d))
+    brief.kept = too_large_text(d).substr(1);
   brief.tone = d.wrong_study()                                                      ? Tone::bad
                : d.verdict == Verdict::consistent && but_far_from_priors(d).empty() ? Tone::good
                : d.verdict == Verdict::named || d.verdict == Verdict::consistent    ? Tone::doubtful

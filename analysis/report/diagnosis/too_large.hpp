@@ -20,4 +20,7 @@ inline constexpr double large_size = 3.0;
 /// likeliest; empty without one, or where nothing is missing.
 std::string too_large_text(const diagnosis::Diagnosis& diagnosis);
 
+/// Whether what comes nearest to the causes, were every size as usual, is such a candidate.
+bool nearest_is_too_large(const diagnosis::Diagnosis& diagnosis);
+
 }  // namespace drift::report
