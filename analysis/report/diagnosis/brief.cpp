@@ -88,6 +88,27 @@ bool gravity_is_off(const Diagnosis& d) {
   return d.verdict == Verdict::consistent && beyond != nullptr && beyond->scales;
 }
 
+/// What is to be looked up where several recordings are not explained, before anything is added to
+/// the model: it may be what they do not have in common.
+std::string apart_next(const Diagnosis& d) {
+  if (d.verdict != Verdict::unexplained || d.proposal || d.where.recordings.size() < 2) return "";
+  if (d.nearest_known && std::ranges::find(d.nearest_known->effects, "latitude_error",
+                                           &NamedEffect::term) != d.nearest_known->effects.end())
+    return "Next: diagnose each recording alone: they may be of several places, and [site] is one "
+           "for all of them.";
+  return lacking_in_some_next(d.not_examined, d.where.recordings);
+}
+
+/// What to do next where effects come near; a covariate that no recording has may be another in
+/// each.
+std::string nearest_next(const Diagnosis& d, const remark::StrongestLeft& left) {
+  const std::string before =
+      d.where.recordings.size() > 1 ? lacking_in_all_text(d.not_examined) : "";
+  return fmt::format(
+      "Next: {}ore than one effect, or one of another shape, seems to be missing. {}",
+      before.empty() ? "m" : before + ". M", diagnosed_with(d.nominal, left.labels.front()));
+}
+
 /// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
 std::string next_step(const Diagnosis& d, bool off_zero) {
   if (labels_are_late(d))
@@ -125,6 +146,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         times_off_text(times->clock), d.of_case ? "model" : "plan");
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice);
+  if (const std::string apart = apart_next(d); !apart.empty()) return apart;
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
         "Next: {}identify with patched.toml, the study with the cause in its model{}{}.",
@@ -152,8 +174,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "another recording.",
         d.proposal->acts_on, d.proposal->equation, place.empty() ? "" : ", ", place);
   if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
-    return "Next: more than one effect, or one of another shape, seems to be missing. " +
-           diagnosed_with(d.nominal, left->labels.front());
+    return nearest_next(d, *left);
   return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice);
 }
 
