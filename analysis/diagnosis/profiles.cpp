@@ -169,12 +169,13 @@ void set_intervals(std::vector<search::Cause>& causes, const std::vector<Profile
         p.top = profile.top;
         p.without_grid = profile.without_grid;
         // Noise that drives the platform is not in the fit, and is in the refits: they are right.
-        if (!(p.value < p.low_95) && !(p.value > p.high_95)) continue;
-        p.value = profile.top;
-        // Nor is the sigma of a fit elsewhere that of this value.
-        const double below = p.value - p.low_95, above = p.high_95 - p.value;
-        p.sigma = std::fmax(below, above) / stats::half_width_95;
-        p.prior_sigmas = prior_sigmas(nominal, p.param, p.value);
+        if (p.value < p.low_95 || p.value > p.high_95) {
+          p.value = profile.top;
+          // Nor is the sigma of a fit elsewhere that of this value.
+          const double below = p.value - p.low_95, above = p.high_95 - p.value;
+          p.sigma = std::fmax(below, above) / stats::half_width_95;
+        }
+        p.prior_sigmas = prior_sigmas(nominal, p.param, p.told());
       }
 }
 

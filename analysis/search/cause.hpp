@@ -26,7 +26,8 @@ struct CauseParameter {
   double value = 0.0, sigma = 0.0;
   std::string unit;
   bool profiled = false;  ///< nonlinear: found on a grid and refined; sigma from the profile
-  /// Distance from the mean of the library's prior, in its sigmas; NaN where that is one value.
+  /// Distance of what is told from the mean of its prior, in sigmas of that; NaN where the prior is
+  /// one value.
   double prior_sigmas = std::numeric_limits<double>::quiet_NaN();
   /// 95 % interval by refits at fixed values; NaN where one of its ends is not known.
   double low_95 = std::numeric_limits<double>::quiet_NaN();
@@ -50,10 +51,16 @@ struct CauseParameter {
     const bool none = !std::isfinite(low_95) && !std::isfinite(high_95);
     return none || stats::normal_says(value, sigma, low_95, high_95);
   }
-  /// The value to be told: the most probable one where refits say more than the sigma.
-  double told() const {
+  /// Whether refits say more than the sigma: then the most probable value is told. The fit may have
+  /// had no noise that drives the platform, and a setting the library's grid.
+  bool tells_top() const {
     const bool within = as_refitted() && std::isfinite(top) && !(top < low_95) && !(top > high_95);
-    return within && !sigma_says_it() ? top : value;
+    return within && !sigma_says_it();
+  }
+  /// The value to be told, and the sigma that belongs to it: of the farther end that refits found.
+  double told() const { return tells_top() ? top : value; }
+  double told_sigma() const {
+    return tells_top() ? std::fmax(top - low_95, high_95 - top) / stats::half_width_95 : sigma;
   }
   double low() const { return as_refitted() ? low_95 : value - stats::half_width_95 * sigma; }
   double high() const { return as_refitted() ? high_95 : value + stats::half_width_95 * sigma; }

@@ -101,6 +101,16 @@ Sorted sorted_pairs(const Posed& p, const Pool& pool, double wanted) {
   return out;
 }
 
+/// Leaves out the pairs that positions help the other way round. What fits an effect alone are also
+/// that effect and another together, the other as small as it likes, and no position changes that;
+/// yet where both act it is told.
+void leave_out_helped(std::vector<AdvisedPair>& pairs, const std::vector<AdvisedPair>& helped) {
+  std::erase_if(pairs, [&](const AdvisedPair& p) {
+    const planning::Contest other_way{p.pair.rival, p.pair.truth};
+    return std::ranges::find(helped, other_way, &AdvisedPair::pair) != helped.end();
+  });
+}
+
 class Adviser {
  public:
   Adviser(const mc::Study& study, const std::vector<Recording>& recordings, const Diagnosis& d,
@@ -202,6 +212,8 @@ class Adviser {
       if (helps) pair.after = then[k].sigma;
       (helps ? sorted.helped : sorted.hidden).push_back(pair);
     }
+    leave_out_helped(sorted.twins, sorted.helped);
+    leave_out_helped(sorted.hidden, sorted.helped);
     std::vector<Advice> all;
     const double usual = study_.plan.positions.front().dwell;
     if (!sorted.helped.empty()) {

@@ -14,7 +14,7 @@ struct Profile {
   int set = 0;                      ///< of the cause: alternatives have different ones
   std::string key, unit;            ///< of the parameter; values below are in `unit`
   std::size_t param = 0;            ///< index in TermLibrary
-  double value = 0.0, sigma = 0.0;  ///< as the diagnosis says them
+  double value = 0.0, sigma = 0.0;  ///< of the fit
   struct Point {
     double value = 0.0;
     double loss = 0.0;  ///< twice the log of the likelihood lost against the top

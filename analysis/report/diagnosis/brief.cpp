@@ -8,10 +8,14 @@
 #include "analysis/report/diagnosis/words/not_examined_words.hpp"
 #include "analysis/report/diagnosis/words/remark_words.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/too_large.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "core/base/words.hpp"
+#include "core/physics/closure.hpp"
+#include "core/physics/parameters_config.hpp"
 
 namespace drift::report {
 
@@ -32,6 +36,47 @@ std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
   return std::nullopt;
 }
 
+/// A key of the nominal model, as --set takes it. It is the first filter, and a name that would
+/// have to be quoted is left to its number.
+std::string key_of_nominal(const FilterSpec& nominal, std::string_view key) {
+  const bool plain = shell_word(nominal.name) == nominal.name &&
+                     nominal.name.find_first_of(".=") == std::string::npos;
+  return fmt::format("filter.{}.{}", plain ? nominal.name : "0", key);
+}
+
+/// The parameters that a candidate's line names: "accelerometer K0" those of K0.
+ParamMask named_by(std::string_view label) {
+  ParamMask all;
+  for (std::size_t end = label.find(' '); end != label.npos; end = label.find(' ')) {
+    label.remove_prefix(end + 1);
+    all |= params_named(label.substr(0, label.find(' ')));
+  }
+  return all.any() ? all : params_named(label);
+}
+
+/// How the nominal model gets an effect, with the key that does it where one does. A list of terms
+/// that may be there by default is none that could be added to.
+std::string diagnosed_with(const FilterSpec& nominal, std::string_view label) {
+  const std::string term(label.substr(0, label.find(' ')));
+  const auto other = facts(nominal.coupling).other;
+  if (term == closure_term && other)
+    return fmt::format("Diagnose again under the other equation: --set \"{}={}\".",
+                       key_of_nominal(nominal, "coupling"), key_of(*other));
+  if ((named_by(label) & ~nominal.active).none())
+    return fmt::format("Give the first, {}, a prior in [filter.parameters] and diagnose again.",
+                       label);
+  ParamMask listed = nominal.active;
+  listed.reset(closure_param);  // of the coupling
+  const std::string added =
+      listed == base_parameters()
+          ? shell_word(fmt::format(
+                "{}=[\"{}\"]", key_of_nominal(nominal, "terms"),
+                fmt::join(terms_text(nominal.active | TermLibrary::completed(params_named(term))),
+                          "\", \"")))
+          : fmt::format("\"{}+={}\"", key_of_nominal(nominal, "terms"), term);
+  return fmt::format("Diagnose again with the first in the model: --set {}.", added);
+}
+
 /// Whether the plan tells already what was asked: that leaves the next step to others.
 bool asks_for_nothing(const Advice& a) {
   return a.kind == Advice::Kind::told || a.kind == Advice::Kind::unlike;
@@ -41,6 +86,27 @@ bool asks_for_nothing(const Advice& a) {
 bool gravity_is_off(const Diagnosis& d) {
   const auto* beyond = remark_in<remark::BeyondPrior>(d);
   return d.verdict == Verdict::consistent && beyond != nullptr && beyond->scales;
+}
+
+/// What is to be looked up where several recordings are not explained, before anything is added to
+/// the model: it may be what they do not have in common.
+std::string apart_next(const Diagnosis& d) {
+  if (d.verdict != Verdict::unexplained || d.proposal || d.where.recordings.size() < 2) return "";
+  if (d.nearest_known && std::ranges::find(d.nearest_known->effects, "latitude_error",
+                                           &NamedEffect::term) != d.nearest_known->effects.end())
+    return "Next: diagnose each recording alone: they may be of several places, and [site] is one "
+           "for all of them.";
+  return lacking_in_some_next(d.not_examined, d.where.recordings);
+}
+
+/// What to do next where effects come near; a covariate that no recording has may be another in
+/// each.
+std::string nearest_next(const Diagnosis& d, const remark::StrongestLeft& left) {
+  const std::string before =
+      d.where.recordings.size() > 1 ? lacking_in_all_text(d.not_examined) : "";
+  return fmt::format(
+      "Next: {}ore than one effect, or one of another shape, seems to be missing. {}",
+      before.empty() ? "m" : before + ". M", diagnosed_with(d.nominal, left.labels.front()));
 }
 
 /// What to do next; empty where nothing is to be done. off_zero: a gimbal's zero is off.
@@ -80,6 +146,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         times_off_text(times->clock), d.of_case ? "model" : "plan");
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice);
+  if (const std::string apart = apart_next(d); !apart.empty()) return apart;
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
         "Next: {}identify with patched.toml, the study with the cause in its model{}{}.",
@@ -92,7 +159,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
       other && std::ranges::find(d.causes, closure_term, &search::Cause::term) != d.causes.end())
     return fmt::format(
         "Next: diagnose again under the other equation, and see what is missing: --set {}.",
-        shell_word(fmt::format("filter.{}.coupling={}", d.nominal.name, key_of(*other))));
+        shell_word(fmt::format("{}={}", key_of_nominal(d.nominal, "coupling"), key_of(*other))));
   if (declares_noise(d))
     return fmt::format(
         "Next: identify with patched.toml, the study with the noise that was found{}: the sigmas "
@@ -107,10 +174,7 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "another recording.",
         d.proposal->acts_on, d.proposal->equation, place.empty() ? "" : ", ", place);
   if (const auto left = strongest_left(d); d.verdict == Verdict::unexplained && left)
-    return fmt::format(
-        "Next: more than one effect, or one of another shape, seems to be missing. Diagnose again "
-        "with the first in the model: --set \"filter.{}.terms+={}\".",
-        d.nominal.name, left->labels.front().substr(0, left->labels.front().find(' ')));
+    return nearest_next(d, *left);
   return d.advice.empty() ? "" : "Next: " + advice_in_brief(d.advice);
 }
 
@@ -154,6 +218,9 @@ std::string headline(const Diagnosis& d) {
 InBrief diagnosis_in_brief(const Diagnosis& d) {
   InBrief brief;
   brief.verdict = headline(d);
+  // Another prior, and the verdict would be another.
+  if (d.verdict == Verdict::named && nearest_is_too_large(d))
+    brief.kept = too_large_text(d).substr(1);
   brief.tone = d.wrong_study()                                                      ? Tone::bad
                : d.verdict == Verdict::consistent && but_far_from_priors(d).empty() ? Tone::good
                : d.verdict == Verdict::named || d.verdict == Verdict::consistent    ? Tone::doubtful

@@ -62,8 +62,8 @@ Json causes_json(const std::vector<Cause>& causes) {
     Json parameters = Json::array(), confusable = Json::array();
     for (const CauseParameter& p : c.parameters)
       parameters.push_back({{"key", p.key},
-                            {"value", p.value},
-                            {"sigma", p.sigma},
+                            {"value", p.told()},
+                            {"sigma", p.told_sigma()},
                             {"unit", p.unit},
                             {"interval_95", {p.low(), p.high()}},
                             {"top", p.top},

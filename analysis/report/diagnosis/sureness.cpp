@@ -77,10 +77,11 @@ Blocks cause_figure(const Diagnosis& d) {
   for (const search::Cause& c : d.causes)
     for (const search::CauseParameter& p : c.parameters) {
       settings = settings || TermLibrary::specs[p.param].setting();
-      if (TermLibrary::specs[p.param].setting() || !(p.sigma > 0.0) || !std::isfinite(p.value))
+      if (TermLibrary::specs[p.param].setting() || !(p.told_sigma() > 0.0) ||
+          !std::isfinite(p.told()))
         continue;
       const auto distance = [&](double value) {
-        return (value - value_left_out(p.param, d.nominal.coupling)) / p.sigma;
+        return (value - value_left_out(p.param, d.nominal.coupling)) / p.told_sigma();
       };
       chart.lines.push_back(
           {.label = fmt::format("{} {}", label_of(c), p.key),

@@ -47,20 +47,31 @@ std::size_t sentences_in(std::string_view text) {
 
 /// A text in at most so many lines. What has no room is left off where a sentence or a clause
 /// ends, so that nothing is shown without what qualifies it; failing that the last line ends with
-/// "...", which says that there is more.
-PartShown shortened(const std::string& text, std::size_t most, std::size_t width) {
+/// "...", which says that there is more. kept: a sentence of the text that is shown in any case.
+PartShown shortened(const std::string& text, std::size_t most, std::size_t width,
+                    const std::string& kept = {}) {
   PartShown all{lines_of(text, width)};
   if (all.lines.size() <= most) return all;
   if (most == 0) return {{}, sentences_in(text)};
+  const std::size_t place = kept.empty() ? std::string::npos : text.find(kept);
   std::vector<std::size_t> ends = ends_within(text, true);
-  for (; !ends.empty(); ends.pop_back())
-    if (auto fitting = lines_of(text.substr(0, ends.back()) + ".", width); fitting.size() <= most)
-      return {std::move(fitting), sentences_in(std::string_view(text).substr(ends.back() + 2))};
-  all.lines.resize(most);
+  for (; !ends.empty(); ends.pop_back()) {
+    const std::size_t end = ends.back();
+    const bool behind = place != std::string::npos && place > end;
+    auto fitting = lines_of(text.substr(0, end) + "." + (behind ? " " + kept : ""), width);
+    if (fitting.size() <= most)
+      return {std::move(fitting),
+              sentences_in(std::string_view(text).substr(end + 2)) - (behind ? 1 : 0)};
+  }
+  const std::vector<std::string> last_lines =
+      place == std::string::npos ? std::vector<std::string>{} : lines_of(kept, width);
+  const std::size_t of_text = most - (last_lines.size() < most ? last_lines.size() : 0);
+  all.lines.resize(of_text);
   std::string& last = all.lines.back();
   while (last.size() + cut_off.size() > width && last.find_last_of(' ') != std::string::npos)
     last.erase(last.find_last_of(' '));
   last += cut_off;
+  if (of_text < most) all.lines.insert(all.lines.end(), last_lines.begin(), last_lines.end());
   return all;
 }
 
@@ -79,10 +90,14 @@ PartShown before_next(const InBrief& brief, std::size_t room, std::size_t width)
   std::size_t of_asked = 0;
   for (std::size_t k = 0; k < std::min(brief.asked, more.size()); ++k)
     of_asked += lines_of(more[k], width).size();
-  const std::size_t kept = std::max(std::min(of_wrong, room / 2),
-                                    std::min(of_asked, room - std::min(room, least_of_verdict)));
+  const std::size_t of_kept =
+      brief.kept.empty() ? 0 : lines_of(brief.kept, width).size() + least_of_verdict;
+  const std::size_t kept =
+      std::min(std::max(std::min(of_wrong, room / 2),
+                        std::min(of_asked, room - std::min(room, least_of_verdict))),
+               room - std::min(room, of_kept));
   room -= kept;
-  add(shortened(brief.verdict, room, width));
+  add(shortened(brief.verdict, room, width, brief.kept));
   room += kept;
   for (const std::string& text : more) {
     const PartShown part = shortened(text, room, width);

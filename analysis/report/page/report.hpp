@@ -91,6 +91,7 @@ struct InBrief {
   WeighedTexts more = {};    ///< what belongs to it
   std::size_t asked = 0;     ///< so many of them, the first, were asked for: they have room first
   std::string next = {};     ///< what to do
+  std::string kept = {};     ///< a sentence of the verdict that is shown whatever has no room
 };
 
 /// On a terminal, whose last lines are read first, headlines may come last.

@@ -121,6 +121,10 @@ TEST(Profiles, AValueThatItsRefitsDoNotHoldIsTheirTop) {
   };
   EXPECT_EQ(stated(5.9).value, 5.9);
   EXPECT_EQ(stated(5.9).top, 6.15);
+  // Its sigma says another interval: what is told of it is the top, with the sigma of that.
+  EXPECT_EQ(stated(5.9).told(), 6.15);
+  EXPECT_NEAR(stated(5.9).told_sigma(), 0.75 / stats::half_width_95, 1e-12);
+  EXPECT_NEAR(stated(5.9).prior_sigmas, 6.15 / 2.0, 1e-12);
   EXPECT_EQ(stated(0.5).value, 6.15);
   EXPECT_NEAR(stated(0.5).prior_sigmas, 6.15 / 2.0, 1e-12);
   EXPECT_EQ(stated(7.5).value, 6.15);

@@ -34,7 +34,7 @@ double in_prior_sigmas(const search::CauseParameter& p) {
   if (!p.profiled && std::isfinite(p.prior_sigmas)) return std::abs(p.prior_sigmas);
   const ParamSpec& spec = TermLibrary::specs[p.param];
   const double sigma = spec.prior.sigma();
-  return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.value - spec.prior.mean()) / sigma;
+  return p.profiled || !(sigma > 0.0) ? 0.0 : std::abs(p.told() - spec.prior.mean()) / sigma;
 }
 
 /// Whether value and sigma are all there is to say. Of lambda an end that refits did not reach is

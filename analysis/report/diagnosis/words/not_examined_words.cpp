@@ -187,6 +187,37 @@ std::string own_not_examined_text(const std::vector<NotExamined>& all,
   return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
 }
 
+std::string lacking_in_some_next(const std::vector<NotExamined>& all,
+                                 const RecordingSpans& recordings) {
+  std::vector<std::string> terms;
+  const NotExamined* first = nullptr;
+  const std::vector<NotExamined> lacking = lacking_covariate(all, Origin::library);
+  for (const NotExamined& n : lacking) {
+    if (n.lacking.empty() || !n.instead.empty()) continue;
+    if (first == nullptr) first = &n;
+    if (n.lacking == first->lacking && n.missing == first->missing) terms.push_back(n.term);
+  }
+  if (first == nullptr) return "";
+  return fmt::format("Next: give {} {}, or leave {} out, and diagnose again: {} {} not examined.",
+                     lacking_in_words(*first, recordings), lacked_in_words(*first),
+                     first->lacking.size() > 1 ? "them" : "it", listed(terms, "and"),
+                     terms.size() > 1 ? "were" : "was");
+}
+
+std::string lacking_in_all_text(const std::vector<NotExamined>& all) {
+  std::vector<std::string> followed;
+  for (const NotExamined& n : lacking_covariate(all, Origin::library))
+    if (const CovariateSpec* c = lacked_by(n);
+        c != nullptr && !c->is_vector() && n.instead.empty() && n.lacking.empty())
+      if (std::string what = fmt::format("the {}", c->what);
+          std::ranges::find(followed, what) == followed.end())
+        followed.push_back(std::move(what));
+  return followed.empty()
+             ? ""
+             : fmt::format("look up whether {} {} the same in all recordings",
+                           listed(followed, "and"), followed.size() > 1 ? "were" : "was");
+}
+
 std::string own_not_examined_next(const std::vector<NotExamined>& all,
                                   const RecordingSpans& recordings) {
   const std::vector<NotExamined> own = lacking_covariate(all, Origin::study);

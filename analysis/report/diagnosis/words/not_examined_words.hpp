@@ -33,6 +33,14 @@ std::string lacking_covariate_text(const std::vector<diagnosis::NotExamined>& al
 std::string followed_text(const std::vector<diagnosis::NotExamined>& all,
                           const RecordingSpans& recordings);
 
+/// "Next: give b.csv the temperature, or leave it out, and diagnose again: ..." of what some
+/// recordings of several lack; or empty.
+std::string lacking_in_some_next(const std::vector<diagnosis::NotExamined>& all,
+                                 const RecordingSpans& recordings);
+
+/// "look up whether the temperature was the same in all recordings", where none has it; or empty.
+std::string lacking_in_all_text(const std::vector<diagnosis::NotExamined>& all);
+
 /// "mine, a term of the study: b.csv lacks the column oil.": the study asks for it, so a short
 /// answer does, too; empty if none of its own terms was left out for want of a covariate.
 std::string own_not_examined_text(const std::vector<diagnosis::NotExamined>& all,

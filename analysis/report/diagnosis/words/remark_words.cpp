@@ -15,6 +15,7 @@
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
+#include "core/physics/closure.hpp"
 
 namespace drift::report {
 namespace {
@@ -127,9 +128,11 @@ struct Words {
 
   std::string operator()(const StrongestLeft& r) const {
     return fmt::format(
-        "With {} in the model the strongest of what is left is {}: put the first into the nominal "
-        "filter and diagnose again",
-        fmt::join(r.labels, " and "), r.strongest);
+        "With {} in the model the strongest of what is left is {}: {} and diagnose again",
+        fmt::join(r.labels, " and "), r.strongest,
+        !r.labels.empty() && r.labels.front() == closure_term
+            ? "take the other equation"
+            : "put the first into the nominal filter");
   }
 
   std::string operator()(const BeyondPrior& r) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -30,15 +31,22 @@ bool is_named(const Diagnosis& d, const CandidateScore& c) {
   });
 }
 
-/// Significant, with nothing significant left beside it, and too large: so far out in its prior
-/// that no cause is, or further out than is usual, and as likely as the causes were it not. best:
-/// the largest log evidence among those.
+/// Significant, with nothing significant left beside it.
+bool explains(const CandidateScore& c) {
+  return c.observable && c.leaves_nothing && c.p_value <= inference::RemarkLimits::chance_p;
+}
+
+/// The log evidence of a candidate whose size costs nothing.
+double of_any_size(const CandidateScore& c) {
+  return c.log_bayes + 0.5 * c.size_sigma * c.size_sigma;
+}
+
+/// An explanation, and too large: so far out in its prior that no cause is, or further out than is
+/// usual, and as likely as the causes were it not. best: the largest log evidence among those.
 bool loses_by_size(const CandidateScore& c, double best) {
-  if (!c.observable || !c.leaves_nothing || c.p_value > inference::RemarkLimits::chance_p)
-    return false;
-  const double cost = 0.5 * c.size_sigma * c.size_sigma;  // of the size, in log evidence
-  return c.size_sigma > unusual_size || (c.size_sigma > inference::RemarkLimits::large_size &&
-                                         best > c.log_bayes && c.log_bayes + cost > best);
+  return explains(c) &&
+         (c.size_sigma > unusual_size || (c.size_sigma > inference::RemarkLimits::large_size &&
+                                          best > c.log_bayes && of_any_size(c) > best));
 }
 
 /// The largest log evidence among the candidates that are causes.
@@ -82,6 +90,15 @@ std::string too_large_text(const Diagnosis& d) {
   if (effects.empty()) return "";
   return fmt::format(" What would explain it{}, but loses by its size alone: {}.",
                      d.causes.empty() ? "" : " as well", listed(effects, "and"));
+}
+
+bool nearest_is_too_large(const Diagnosis& d) {
+  const CandidateScore* nearest = nullptr;
+  for (const CandidateScore& c : d.candidates)
+    if (explains(c) && !is_named(d, c) && std::isfinite(of_any_size(c)) &&
+        (nearest == nullptr || of_any_size(c) > of_any_size(*nearest)))
+      nearest = &c;
+  return !d.causes.empty() && nearest != nullptr && loses_by_size(*nearest, best_evidence(d));
 }
 
 }  // namespace drift::report

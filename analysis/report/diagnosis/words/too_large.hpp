@@ -15,4 +15,7 @@ inline constexpr double unusual_size = inference::FitLimits::beyond_prior;
 /// likeliest; empty without one, or where nothing is missing.
 std::string too_large_text(const diagnosis::Diagnosis& diagnosis);
 
+/// Whether what comes nearest to the causes, were every size as usual, is such a candidate.
+bool nearest_is_too_large(const diagnosis::Diagnosis& diagnosis);
+
 }  // namespace drift::report

@@ -153,10 +153,14 @@ TEST(Intervals, OfTheSentenceTheTableAndTheFigureAreOneWithTheMostProbableValue)
   const Blocks figure = cause_figure(d);
   const std::string& svg = std::get<Figure>(figure.at(0).content).svg;
   EXPECT_NE(svg.find(told), std::string::npos) << svg;
-  EXPECT_NE(svg.find(">15<"), std::string::npos) << svg;  // sigmas; the interval reaches 19.8
+  EXPECT_NE(svg.find(">3.0<"), std::string::npos) << svg;  // sigmas; the interval reaches 3.1
+  EXPECT_EQ(svg.find(">10<"), std::string::npos) << svg;
   const Json json = Json::parse(to_json(d))["causes"][0]["parameters"];
-  EXPECT_EQ(json[0]["value"], 0.056);
+  EXPECT_EQ(json[0]["value"], 0.08);
   EXPECT_EQ(json[0]["top"], 0.08);
+  EXPECT_NEAR(json[0]["sigma"].get<double>(), (0.218 - 0.08) / stats::half_width_95, 1e-12);
+  EXPECT_EQ(json[1]["value"], 40.0);
+  EXPECT_EQ(json[1]["sigma"], 0.7);
   EXPECT_TRUE(json[1]["top"].is_null());
   // Where the sigma says as much, and where the top lies outside: the value.
   search::CauseParameter& size = d.causes[0].parameters[0];
@@ -167,6 +171,24 @@ TEST(Intervals, OfTheSentenceTheTableAndTheFigureAreOneWithTheMostProbableValue)
   size.low_95 = 0.035;
   size.high_95 = 0.078;
   EXPECT_EQ(size.told(), 0.056);
+  EXPECT_EQ(size.told_sigma(), 0.011);
+}
+
+/// Of a time constant of which refits found one end, beyond the library's grid, which had held it.
+TEST(Intervals, ASettingBeyondItsGridHasOneValueInWordsAndInTheJson) {
+  diagnosis::Diagnosis d = skew();
+  search::CauseParameter& setting = d.causes[0].parameters[1];
+  setting.value = 42.6;
+  setting.sigma = 18.6;
+  setting.top = 3650.0;
+  setting.low_95 = 39.4;
+  setting.without_grid = true;
+  EXPECT_NE(sentence(d).find("W_tau = 3650 (95 %: at least 39) min"), std::string::npos)
+      << sentence(d);
+  const Json json = Json::parse(to_json(d))["causes"][0]["parameters"][1];
+  EXPECT_EQ(json["value"], 3650.0);
+  EXPECT_NEAR(json["sigma"].get<double>(), (3650.0 - 39.4) / stats::half_width_95, 1e-9);
+  EXPECT_EQ(json["interval_95"], (Json{39.4, nullptr}));
 }
 
 TEST(CauseFigure, LeavesSettingsOutAndSaysSo) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/inference/noise/noise_component.hpp"
+#include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/words/not_examined_words.hpp"
 #include "analysis/report/diagnosis/words/remark_words.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
@@ -88,6 +89,45 @@ TEST(SeveralRecordingsWords, SayWhichOneLacksWhatATermFollows) {
   EXPECT_EQ(sentence(),
             "Not examined: temperature_drift: b.csv lacks the covariate that they follow");
   EXPECT_EQ(report::reason_in_words(n, two), "it follows a covariate that is not in b.csv");
+}
+
+/// Nothing explains two recordings, and an effect comes near.
+diagnosis::Diagnosis near_to(const char* term) {
+  diagnosis::Diagnosis d;
+  d.verdict = diagnosis::Verdict::unexplained;
+  d.nominal.name = "nominal";
+  d.where.recordings = two;
+  d.nearest_known = {{{term, "", term}}, 86.0, 78.0};
+  d.remarks.emplace_back(diagnosis::remark::StrongestLeft{{term}, "gimbal_angle_drift G_s"});
+  for (const char* follows : {"temperature_drift", "temperature_g_drift"})
+    d.not_examined.push_back({.term = follows, .missing = covariate("temperature").set()});
+  return d;
+}
+
+TEST(SeveralRecordingsWords, WhatTheyMayNotHaveInCommonIsLookedUpBeforeAnEffectIsAdded) {
+  diagnosis::Diagnosis d = near_to("g2_drift");
+  const auto next = [&d] { return report::diagnosis_in_brief(d).next; };
+  const std::string advice =
+      "ore than one effect, or one of another shape, seems to be missing. Diagnose again with the "
+      "first in the model: --set \"filter.nominal.terms+=g2_drift\".";
+  EXPECT_EQ(next(),
+            "Next: look up whether the temperature was the same in all recordings. M" + advice);
+  for (auto& n : d.not_examined) n.lacking = {1};
+  EXPECT_EQ(next(),
+            "Next: give b.csv the temperature, or leave it out, and diagnose again: "
+            "temperature_drift and temperature_g_drift were not examined.");
+  d.where.recordings.clear();
+  EXPECT_EQ(next(), "Next: m" + advice);
+}
+
+TEST(SeveralRecordingsWords, AnotherLatitudeMayBeThatOfOneOfThem) {
+  diagnosis::Diagnosis d = near_to("latitude_error");
+  const auto next = [&d] { return report::diagnosis_in_brief(d).next; };
+  EXPECT_EQ(next(),
+            "Next: diagnose each recording alone: they may be of several places, and [site] is one "
+            "for all of them.");
+  d.where.recordings.clear();
+  EXPECT_NE(next().find("terms+=latitude_error"), std::string::npos) << next();
 }
 
 }  // namespace
