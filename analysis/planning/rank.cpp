@@ -60,12 +60,13 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
         groups, [&](const RankingGroup& g) { return alike(g.models.front().model.spec, filter); });
     if (known != groups.end()) {
       known->filters += ", " + filter.name;
+      known->each.push_back({filter.name, filter.coupling});
       for (ModelRanking& m : known->models)
         if (m.model.spec.coupling == filter.coupling)
           m.filters += (m.filters.empty() ? "" : ", ") + filter.name;
       continue;
     }
-    RankingGroup group{filter.name, {}};
+    RankingGroup group{filter.name, {{filter.name, filter.coupling}}, {}};
     const auto add = [&](Coupling coupling) {
       ModelSpec spec = filter;
       spec.coupling = coupling;

@@ -40,7 +40,13 @@ struct ModelRanking {
 
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.
 struct RankingGroup {
-  std::string filters;               ///< names in the file, of all
+  std::string filters;  ///< names in the file, of all
+  /// A filter of the file, and the equation of its own.
+  struct Named {
+    std::string name;
+    Coupling coupling = Coupling::eq5;
+  };
+  std::vector<Named> each;           ///< in the order of the file
   std::vector<ModelRanking> models;  ///< that of the first filter first
 
   const Layout& layout() const { return models.front().ranking.layout; }

@@ -95,6 +95,7 @@ Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
   report.add({{"", std::move(words), On::terminal}, study_section(study)});
   report.footer = "Nothing is sampled: sigmas are Cramer-Rao bounds with the prior.";
   report.document = {"rank.json", dumped(document)};
+  report.files.emplace_back("ranking.csv", ranking_csv(rank));
   if (rank.better && !rank.better->improvement.steps.empty())
     report.files.emplace_back(proposed_positions, proposed_toml(study, rank));
   if (study.text.empty()) return report;

@@ -71,4 +71,8 @@ std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& model
 
 Json rank_document(const mc::Study& study, const planning::PlanRanking& rank);
 
+/// ranking.csv: the rows of ranking_table() of every filter and model, in the units of study files,
+/// with all their digits.
+std::string ranking_csv(const planning::PlanRanking& rank);
+
 }  // namespace drift::report
