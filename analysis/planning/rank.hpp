@@ -63,7 +63,7 @@ struct PlanImprovement {
 struct PlanRanking {
   double duration = 0.0;       ///< of the plan, slews included [s]
   bool at_truth = false;       ///< linearised at the means of [truth], else at prior means
-  bool process_noise = false;  ///< a filter has it; the information does not
+  bool process_noise = false;  ///< a filter has it: it is in what is said of that one
   /// The magnetic field that is taken, local axes [T]; nothing if one is declared, or none needed.
   std::optional<Vec3> assumed_field_l;
   std::vector<RankingGroup> groups;
