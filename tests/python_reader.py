@@ -212,6 +212,40 @@ def an_identification_agrees_with_itself():
     ds.close()
 
 
+def a_ranking_agrees_with_its_document():
+    run("rank", "one.toml", "-o", "ranked")
+    table, ds = driftscope.ranking("ranked"), driftscope.open("ranked")
+    assert ds.posterior_sigma.dims == ("filter", "coupling", "parameter")
+    assert list(ds["filter"].values) == ["Köln, 5", "eq6"] and set(ds.coupling.values) == {"eq5", "eq6"}
+    assert len(table) == 2 * (15 + 9) and ds.bits.attrs["units"] == "bit"
+    own = table[table.of_the_file == 1]
+    assert dict(own.groupby("filter").coupling.first()) == {"Köln, 5": "eq5", "eq6": "eq6"}
+    assert all(own.groupby("filter")["rank"].apply(lambda ranks: list(ranks) == list(range(1, len(ranks) + 1))))
+    document = json.loads(Path("ranked/rank.json").read_text(encoding="utf-8"))
+    compared = 0
+    for group in document["filters"]:
+        for model in group["models"]:
+            for p in model["parameters"]:
+                place = dict(filter=group["name"], coupling=model["coupling"], parameter=p["key"])
+                row = table[(table["filter"] == group["name"]) & (table.coupling == model["coupling"])
+                            & (table.parameter == p["key"])].iloc[0]
+                assert row.unit == p["unit"] == ds.parameter_unit.sel(parameter=p["key"]).item()
+                assert row["bits [bit]"] == p["bits"] == ds.bits.sel(**place).item()
+                for name in ("rank", "nominal", "prior_sigma", "posterior_sigma", "learning_ratio",
+                             "conditional_sigma", "collinearity", "correlation"):
+                    assert row[name] == p[name] == ds[name].sel(**place).item(), (place, name)
+                low, high = p["learning_ratio_at_drawn_truths"] or (np.nan, np.nan)
+                np.testing.assert_array_equal([row.learning_ratio_at_drawn_truths_low, low],
+                                              [low, ds.learning_ratio_at_drawn_truths_low.sel(**place).item()])
+                np.testing.assert_array_equal(row.learning_ratio_at_drawn_truths_high, high)
+                compared += 1
+    assert compared == len(table), compared
+    assert np.isnan(ds.posterior_sigma.sel(filter="eq6", parameter="K0_x")).all(), "a parameter that it does not have"
+    refuses(lambda: driftscope.open("ranked", "statistics"), "has no group 'statistics'")
+    refuses(lambda: driftscope.ranking("identified"), "holds no ranking.csv", "driftscope rank")
+    refuses(lambda: driftscope.estimates("ranked"), "holds no estimates.csv", "driftscope identify")
+
+
 def errors_say_what_to_do():
     refuses(lambda: driftscope.open("nowhere"), "nowhere: no such folder or file")
     refuses(lambda: driftscope.estimates("nowhere"), "nowhere: no such folder")
@@ -255,7 +289,7 @@ def chapter_is_true():
     assert filters.silent_failure_rate.sel(start=1).to_pandas().to_string() in said.stdout, said.stdout
 
 
-for test in (exports_agree, points_of_different_lengths_are_padded, an_export_is_outdated_by_what_is_stored, an_identification_agrees_with_itself, errors_say_what_to_do,
-             notebooks_run, chapter_is_true):
+for test in (exports_agree, points_of_different_lengths_are_padded, an_export_is_outdated_by_what_is_stored,
+             an_identification_agrees_with_itself, a_ranking_agrees_with_its_document, errors_say_what_to_do, notebooks_run, chapter_is_true):
     test()
     print(f"{test.__name__}: ok", flush=True)

@@ -34,8 +34,7 @@ void judge(ErrorComparison& c, TruthIs truth, ProcessNoiseIs noise, double sigma
              (truth == TruthIs::the_model || c.rmse_ratio <= sigma_ratio)) {
     c.verdict = ErrorVerdict::process_noise;
     c.reason = fmt::format(
-        "{:.3g} times the promised sigma: there is process noise, which the promise does not know "
-        "of; it is a lower bound",
+        "{:.3g} times the promised sigma: the process noise is another than the filter allows for",
         c.rmse_ratio / promise);
   } else if (c.low <= sigma_ratio * (1.0 + tolerance) &&
              c.high >= sigma_ratio * (1.0 - tolerance)) {

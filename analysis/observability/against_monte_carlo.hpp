@@ -20,7 +20,7 @@ struct MonteCarloError {
 /// Whether the data of the study came from the model that is ranked.
 enum class TruthIs { the_model, another_model };
 
-/// Whether the truth or the filter have process noise, which the information does not know.
+/// Whether the truth has process noise other than what the filter allows for.
 enum class ProcessNoiseIs { nowhere, there };
 
 /// How an error of the study stands to what the information promises.
@@ -30,7 +30,7 @@ enum class ErrorVerdict {
   nonlinear,      ///< another error, which the filter knows of, or of the same model: levers depend
                   ///< on where the truth lies, or the estimator is not efficient
   wrong_model,    ///< another model made the data, and the error is beyond what the filter claims
-  process_noise,  ///< another error, where truth or filter have noise that the information lacks
+  process_noise,  ///< another error, where the truth has process noise other than the filter's
   prior_dominated,  ///< the prior says at least as much as the data: the error shows how truth and
                     ///< starts were drawn
 };

@@ -6,16 +6,16 @@ namespace drift::observability {
 namespace {
 
 VecX sigmas(const LinearisedPlan& plan, double attitude_weight = 1.0) {
-  const auto everything = [](const TimeBin&) { return true; };
-  return posterior_of(information_root(plan, everything, attitude_weight)).sigma;
+  return posterior_of(plan, attitude_weight).sigma;
 }
 
 }  // namespace
 
 Drivers drivers_of(const LinearisedPlan& plan, const TestPlan& test, const RankedModel& model) {
-  const auto everything = [](const TimeBin&) { return true; };
-  const MatX P = posterior_of(information_root(plan, everything)).covariance();
-  const VecX before = P.diagonal().cwiseSqrt();
+  const MatX P = posterior_of(whole_root(plan)).covariance();
+  // Of what is known at the end with what the test began with.
+  const MatX C = by_the_beginning(plan.bins.back().walked, P.rows()) * P;
+  const VecX before = sigmas(plan);
   Drivers out;
   out.attitude = sigmas(plan, 2.0).cwiseQuotient(before);
   const auto with_half = [&](double Readout::*noise) -> VecX {
@@ -34,7 +34,7 @@ Drivers drivers_of(const LinearisedPlan& plan, const TestPlan& test, const Ranke
   for (Eigen::Index j = 0; j < P.cols(); ++j)
     for (Eigen::Index k = 0; k < P.rows(); ++k)
       out.priors(k, j) = std::sqrt(
-          std::max(0.0, 1.0 - more * P(k, j) * P(k, j) / ((1.0 + more * P(j, j)) * P(k, k))));
+          std::max(0.0, 1.0 - more * std::pow(C(k, j) / before[k], 2) / (1.0 + more * P(j, j))));
   return out;
 }
 

@@ -5,7 +5,8 @@
 namespace drift::observability {
 
 /// Which position, and which minutes, inform each parameter. Gains are log2(sigma before / sigma
-/// after) [bit]: over all bins they add up to log2(prior sigma / posterior sigma).
+/// after) [bit]: over all bins they add up to log2(prior sigma / posterior sigma). Of a drift that
+/// walks the sigma is that at the time: where nothing shows it, it is less known by the end.
 struct InformationCourse {
   MatX gain;           ///< by bin in order of time, shape (n, bins)
   MatX position_gain;  ///< the same by position, shape (n, positions)

@@ -4,6 +4,7 @@
 
 #include "analysis/observability/ranking.hpp"
 #include "core/estimate/closure/closure_posterior.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/sim/own_term_steps.hpp"
 #include "core/sim/predict.hpp"
 
@@ -30,7 +31,7 @@ EstimateResult estimate_of(const TestPlan& plan, const RankedModel& model) {
 std::vector<double> learning_at_truth(const TestPlan& plan, const RankedModel& model) {
   std::vector<double> ratios;
   const std::vector<std::size_t> states = make_layout(model.spec).params;
-  if (std::ranges::find(states, closure_param) != states.end()) {
+  if (std::ranges::find(states, closure_param) != states.end() && !drift_varies(model.spec)) {
     const EstimateResult e = estimate_of(plan, model);
     if (e.status == EstimateStatus::ok) {
       for (const ParameterEstimate& p : e.parameters) ratios.push_back(p.learning_ratio());

@@ -40,11 +40,11 @@ std::vector<EigenDirection> spectrum_of(const MatX& information_root) {
 }
 
 Ranking rank_parameters(const LinearisedPlan& plan) {
-  const auto everything = [](const TimeBin&) { return true; };
-  const MatX root = information_root(plan, everything);
-  const Posterior posterior = posterior_of(root);
+  const MatX root = whole_root(plan);
+  const Posterior posterior = posterior_of(root, plan.bins.back().walked);
   Ranking out;
   out.layout = plan.layout;
+  out.walking = plan.bins.back().walked.states;
   out.bits = posterior.bits;
   out.covariance = posterior.covariance();
   for (Eigen::Index k = 0; k < plan.size(); ++k) {
@@ -70,7 +70,7 @@ Ranking rank_parameters(const LinearisedPlan& plan) {
   for (auto d = out.spectrum.rbegin(); d != out.spectrum.rend(); ++d)
     if (d->information < unseen_information) out.unseen.push_back({d->information, d->direction});
   out.root = root;
-  out.root_unheld = information_root(plan, everything, wide_attitude);
+  out.root_unheld = whole_root(plan, wide_attitude);
   out.unheld = weak_directions(out.root_unheld, unseen_information);
   out.excitation = plan.excitation;
   return out;

@@ -30,24 +30,28 @@ struct EigenDirection {
   double participation(std::size_t state) const { return direction[state] * direction[state]; }
 };
 
-/// Ranking of every parameter of a plan under one model.
+/// Ranking of every parameter of a plan under one model. Of a drift that walks sigmas, correlations
+/// and covariance are those in the last sample, as filters report it; what is said of directions is
+/// of the drift that the test begins with.
 struct Ranking {
   Layout layout;
   std::vector<ParameterRank> parameters;  ///< layout order
+  std::vector<std::size_t> walking;       ///< states whose value walks
   std::vector<std::size_t> order;         ///< states by rising learning ratio: the primary rank
-  double bits = 0.0;                      ///< information gained in total, log2 det(1 + I) / 2
-  std::vector<EigenDirection> spectrum;   ///< by falling information
-  MatX root;                              ///< of the information of the data, prior-scaled
-  std::vector<WeakDirection> unseen;      ///< information below unseen_information, weakest first
-  MatX root_unheld;                       ///< if the attitude at each caging is unknown
-  std::vector<WeakDirection> unheld;      ///< unseen then; what is unseen anyway is among them
-  Excitation excitation;                  ///< of the plan
-  MatX covariance;                        ///< posterior, prior-scaled
+  double bits = 0.0;                     ///< information gained in total, -log2 det(covariance) / 2
+  std::vector<EigenDirection> spectrum;  ///< by falling information
+  MatX root;                             ///< of the information of the data, prior-scaled
+  std::vector<WeakDirection> unseen;     ///< information below unseen_information, weakest first
+  MatX root_unheld;                      ///< if the attitude at each caging is unknown
+  std::vector<WeakDirection> unheld;     ///< unseen then; what is unseen anyway is among them
+  Excitation excitation;                 ///< of the plan
+  MatX covariance;                       ///< posterior, prior-scaled
 
   double learning_ratio(std::size_t state) const { return parameters[state].learning_ratio(); }
 };
 
-/// Ranks by Fisher information (physics.md 5.1): learning ratio = posterior / prior sigma.
+/// Ranks by Fisher information, with process noise by the Riccati covariance (physics.md 5.1):
+/// learning ratio = posterior / prior sigma.
 Ranking rank_parameters(const LinearisedPlan& plan);
 
 /// "D_F_x (61 %), D_II_x (13 %)".

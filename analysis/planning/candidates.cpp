@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/estimate/triangle.hpp"
+#include "core/physics/stochastic.hpp"
 #include "core/plan/case_heading.hpp"
 
 namespace drift::planning {
@@ -18,15 +19,16 @@ AddedRows added_rows(TestPlan plan, const Addition& addition, const RankedModel&
   const std::vector<observability::TimeBin> bins = observability::linearise(plan, model).bins;
   const auto start = std::ranges::find_if(
       bins, [&](const observability::TimeBin& b) { return b.position == first; });
-  AddedRows out{start->rows, bins.back().t1 - start->t0};
+  AddedRows out{start->rows, bins.back().walked, bins.back().t1 - start->t0};
   for (auto bin = start + 1; bin != bins.end(); ++bin)
     out.rows = triangle(stacked(out.rows, bin->rows));
   return out;
 }
 
-/// Whether a term knows the time or remembers, so that what a position tells depends on all that
-/// came before it.
+/// Whether a term knows the time or remembers, or a drift walks, so that what a position tells
+/// depends on all that came before it.
 bool depends_on_the_past(const ModelSpec& spec) {
+  if (drift_varies(spec)) return true;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i) {
     const Needs& needs = TermLibrary::owner(i).needs;
     if (spec.active[i] && (needs.clock || needs.memory || needs.turning || needs.covariates != 0))

@@ -10,8 +10,9 @@ namespace drift::planning {
 
 /// What an addition tells of the attitude at the caging of its chain and of the parameters.
 struct AddedRows {
-  MatX rows;              ///< [psi | x]
-  double duration = 0.0;  ///< slew and dwell [s]
+  MatX rows;                     ///< [psi | x]
+  observability::Walked walked;  ///< by its end
+  double duration = 0.0;         ///< slew and dwell [s]
 };
 
 /// Headings of the case at a position slewed to [rad], where it was left at `left` [rad]: as the
@@ -27,7 +28,7 @@ class Candidates {
   Candidates(const TestPlan& plan, const observability::RankedModel& model);
 
   /// Those that may follow `plan`, which has grown. What a caged one tells is kept, unless a term
-  /// knows the time or remembers.
+  /// knows the time or remembers, or a drift walks.
   void renew(const TestPlan& plan);
 
   std::size_t size() const { return pool_.size(); }

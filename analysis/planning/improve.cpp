@@ -121,7 +121,8 @@ std::optional<Improvement> improve_plan(const TestPlan& plan, const RankedModel&
   InformationSum sum(linear.size());
   for (const observability::TimeBin& bin : linear.bins) sum.add(bin.chain, bin.rows);
   int chain = linear.chains - 1;
-  observability::Posterior posterior = observability::posterior_of(sum.root());
+  observability::Posterior posterior =
+      observability::posterior_of(sum.root(), linear.bins.back().walked);
   Improvement out{criterion, posterior.sigma, {}, plan};
   out.plan.preset.clear();
   Candidates candidates(plan, model);
@@ -130,9 +131,12 @@ std::optional<Improvement> improve_plan(const TestPlan& plan, const RankedModel&
     then.add(candidates.is_caged(k) ? chain + 1 : chain, candidates.gain(k)->rows);
     return then;
   };
+  const auto after = [&](const InformationSum& all, std::size_t k) {
+    return observability::posterior_of(all.root(), candidates.gain(k)->walked);
+  };
   const auto merit = [&](std::size_t k) -> std::optional<double> {
     if (!candidates.gain(k)) return std::nullopt;
-    const double value = value_of(criterion, observability::posterior_of(with(k).root()));
+    const double value = value_of(criterion, after(with(k), k));
     return std::isfinite(value) ? -value : -HUGE_VAL;
   };
   for (std::size_t number = 0; number < count; ++number) {
@@ -151,7 +155,7 @@ std::optional<Improvement> improve_plan(const TestPlan& plan, const RankedModel&
     step.duration = candidates.gain(k)->duration;
     sum = with(k);
     chain += candidates.is_caged(k) ? 1 : 0;
-    posterior = observability::posterior_of(sum.root());
+    posterior = after(sum, k);
     step.after = value_of(criterion, posterior);
     step.learning_ratios = posterior.sigma;
     out.plan.positions.push_back(step.position);

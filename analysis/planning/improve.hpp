@@ -67,7 +67,8 @@ JudgeStep judge_here(int threads);
 ///
 /// A position slewed to carries the attitude error of its chain, which is integrated on to it. What
 /// a caged one tells does not depend on what came before and is computed once, unless a term knows
-/// the time or remembers. Does not depend on the number of threads.
+/// the time or remembers, or a drift walks; then it is that in the last sample which the criterion
+/// goes by. Does not depend on the number of threads.
 Improvement improve_plan(const TestPlan& plan, const observability::RankedModel& model,
                          const Criterion& criterion, std::size_t count, int threads = 0,
                          const ImproveProgress& progress = {});

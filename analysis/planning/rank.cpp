@@ -27,7 +27,8 @@ bool equal_axes(const Triads& a, const Triads& b) {
 
 /// Whether two filters are ranked alike, but for eq. (5) or (6).
 bool alike(const ModelSpec& a, const ModelSpec& b) {
-  if (a.active != b.active || a.initial_attitude != b.initial_attitude) return false;
+  if (a.active != b.active || a.initial_attitude != b.initial_attitude || a.noise != b.noise)
+    return false;
   if (!equal_axes(a.mounting.gyro, b.mounting.gyro)) return false;
   if (!equal_axes(a.mounting.accelerometer, b.mounting.accelerometer)) return false;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
@@ -60,12 +61,13 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
         groups, [&](const RankingGroup& g) { return alike(g.models.front().model.spec, filter); });
     if (known != groups.end()) {
       known->filters += ", " + filter.name;
+      known->each.push_back({filter.name, filter.coupling});
       for (ModelRanking& m : known->models)
         if (m.model.spec.coupling == filter.coupling)
           m.filters += (m.filters.empty() ? "" : ", ") + filter.name;
       continue;
     }
-    RankingGroup group{filter.name, {}};
+    RankingGroup group{filter.name, {{filter.name, filter.coupling}}, {}};
     const auto add = [&](Coupling coupling) {
       ModelSpec spec = filter;
       spec.coupling = coupling;
@@ -89,9 +91,12 @@ std::vector<RankingGroup> groups_of(const mc::Study& study) {
 }
 
 /// What may be true of the parameters of a model: what [truth] says of those that it has (a number
-/// is one truth alone), the filter's priors of the others. lambda is that of the truth's coupling.
+/// is one truth alone), the filter's priors of the others; the noise that it allows for stays.
+/// lambda is that of the truth's coupling.
 ModelSpec open_to_truth(const mc::Study& study, const observability::RankedModel& model) {
   ModelSpec open = model.spec;
+  for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
+    if (TermLibrary::specs[i].kind == ParamKind::noise) open.priors[i] = fixed(model.nominal[i]);
   if (!study.has_truth) return open;
   const TruthSpec& truth = study.truth;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)

@@ -40,7 +40,13 @@ struct ModelRanking {
 
 /// Models of the same terms and priors, side by side: eqs. (5) and (6) for a filter of either.
 struct RankingGroup {
-  std::string filters;               ///< names in the file, of all
+  std::string filters;  ///< names in the file, of all
+  /// A filter of the file, and the equation of its own.
+  struct Named {
+    std::string name;
+    Coupling coupling = Coupling::eq5;
+  };
+  std::vector<Named> each;           ///< in the order of the file
   std::vector<ModelRanking> models;  ///< that of the first filter first
 
   const Layout& layout() const { return models.front().ranking.layout; }
@@ -57,7 +63,7 @@ struct PlanImprovement {
 struct PlanRanking {
   double duration = 0.0;       ///< of the plan, slews included [s]
   bool at_truth = false;       ///< linearised at the means of [truth], else at prior means
-  bool process_noise = false;  ///< a filter has it; the information does not
+  bool process_noise = false;  ///< a filter has it: it is in what is said of that one
   /// The magnetic field that is taken, local axes [T]; nothing if one is declared, or none needed.
   std::optional<Vec3> assumed_field_l;
   std::vector<RankingGroup> groups;

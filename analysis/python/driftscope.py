@@ -4,6 +4,7 @@
     ds = driftscope.open("out/study")           # a Monte Carlo study, exported as netcdf: xarray.Dataset
     ds.estimate.sel(filter="eq6", parameter="eta_x")
     driftscope.estimates("out/table1")          # an identification: pandas.DataFrame
+    driftscope.ranking("out/rank")              # what a plan can show: pandas.DataFrame
     driftscope.diagnosis("out/diagnosis").causes
 
 xarray (with netCDF4 or h5netcdf) and pandas are imported where they are needed.
@@ -20,7 +21,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 __all__ = ["DriftscopeError", "Diagnosis", "command_of", "covariance", "diagnosis", "estimates", "open",
-           "recording", "residuals", "summary"]
+           "ranking", "recording", "residuals", "summary"]
 
 
 class DriftscopeError(Exception):
@@ -114,12 +115,13 @@ def _warn_if_outdated(folder, facts):
 
 
 def open(path, group=None):
-    """The arrays of a study or of an identification, by names: an xarray.Dataset.
+    """The arrays of a study, of an identification or of a ranking, by names: an xarray.Dataset.
 
-    path: the results folder of `run` or `identify`, or a .nc file. Of a study the dimensions are run,
+    path: the results folder of `run`, `identify` or `rank`, or a .nc file. Of a study the dimensions are run,
     filter, start, parameter, and point where it has several; group "statistics" has what the runs say of
-    each parameter, "filters" of each start. Numbers stand in the unit of the coordinate parameter_unit, or
-    of the attribute `units`. Nothing is read before it is asked for.
+    each parameter, "filters" of each start. Of a ranking they are filter, coupling, parameter. Numbers stand in
+    the unit of the coordinate parameter_unit, or of the attribute `units`. Nothing but a ranking is read before
+    it is asked for.
     """
     where, study = Path(path), None
     if where.is_dir():
@@ -128,9 +130,13 @@ def open(path, group=None):
             study, where = where, _export_of_study(where)
         elif command == "identify":
             where = _file(where, "identification.nc", "the results of `driftscope identify` on a platform")
+        elif command == "rank" and group is None:
+            return _arrays_of_ranking(where)
+        elif command == "rank":
+            raise DriftscopeError(f"{where}: has no group {group!r} (expected statistics or filters, of a study)")
         else:
             raise DriftscopeError(f"{path}: holds the results of `driftscope {command}` (expected those of "
-                                  "run or identify)")
+                                  "run, identify or rank)")
     elif not where.is_file():
         raise DriftscopeError(f"{path}: no such folder or file (expected a results folder, or a .nc file)")
     xarray = _module("xarray", "python3-xarray")
@@ -147,6 +153,30 @@ def open(path, group=None):
     except ValueError as error:  # xarray finds no engine
         raise DriftscopeError(f"{where}: xarray cannot read netCDF here ({error}). Install netCDF4 or "
                               "h5netcdf: apt install python3-netcdf4, or pip install netCDF4") from error
+
+
+def _arrays_of_ranking(folder):
+    """The table by filter, coupling and parameter, each in its order there; a number with one unit has it as attribute."""
+    _module("xarray", "python3-xarray")
+    table = ranking(folder)
+    names = ["filter", "coupling", "parameter"]
+    units = table.drop_duplicates("parameter").set_index("parameter")["unit"]
+    ds = table.drop(columns="unit").set_index(names).to_xarray()
+    ds = ds.reindex({name: table[name].unique() for name in names})
+    ds = ds.assign_coords(parameter_unit=("parameter", list(units[ds.parameter.values])))
+    for column in list(ds.data_vars):
+        name, bracket, unit = column.partition(" [")
+        if bracket:
+            ds = ds.rename({column: name})
+            ds[name].attrs["units"] = unit.rstrip("]")
+    return ds
+
+
+def ranking(folder):
+    """What a plan shows of every parameter, one a row, best known first: a pandas.DataFrame with the columns
+    filter, coupling, parameter, unit, prior_sigma, posterior_sigma, learning_ratio, ... Beside the equation of a
+    filter stands the other of eqs. (5) and (6): of_the_file is 0 there."""
+    return _table(_file(folder, "ranking.csv", "the results of `driftscope rank`"))
 
 
 def _study_estimates(folder):

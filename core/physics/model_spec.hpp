@@ -15,6 +15,7 @@ struct ProcessNoise {
   double angle_random_walk = 0.0;  ///< of each gyro [rad/sqrt(s)]
   double drift_random_walk = 0.0;  ///< of D_F of each gyro [rad/s/sqrt(s)]
   bool any() const { return angle_random_walk > 0.0 || drift_random_walk > 0.0; }
+  bool operator==(const ProcessNoise&) const = default;
 };
 
 /// A drift model together with what is believed of its parameters.

@@ -124,7 +124,8 @@ Command rank_command() {
     app.add_option("--criterion", a.rank.criterion,
                    "what they make small: A (trace), D (determinant) or a parameter such as eta_x")
         ->needs(improve);
-    add_output(app, a.rank.folder, "folder for rank.json, pictures, report and improved.toml");
+    add_output(app, a.rank.folder,
+               "folder for rank.json, ranking.csv, pictures, report and improved.toml");
     add_json(app);
     add_sharing(app, a.rank.sharing);
     add_progress(app, a.study.progress);

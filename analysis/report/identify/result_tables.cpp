@@ -12,9 +12,9 @@
 namespace drift::report {
 namespace {
 
-/// A number with the shortest digits that read back as it; what is not finite is empty.
+/// A number behind what stands before it.
 std::string cell(double value) {
-  return std::isfinite(value) ? fmt::format(",{}", value) : std::string(",");
+  return "," + csv_number(value);
 }
 
 /// The first columns of every table.

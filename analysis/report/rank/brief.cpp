@@ -255,9 +255,8 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
   brief.tone = std::ranges::all_of(seen, &Seen::whole) ? Tone::good : Tone::doubtful;
   // What was asked for, and what limits every number, before lists that take all the room.
   if (rank.better) brief.more.add(Weight::note, gain_text(rank));
-  if (rank.process_noise)
-    brief.more.add(Weight::note,
-                   "A filter has process noise, not counted here: more is left than is said.");
+  if (std::string walk = walk_text(rank); !walk.empty())
+    brief.more.add(Weight::note, std::move(walk));
   std::string said_before;
   std::vector<std::string> lists;
   for (const Seen& s : seen) {

@@ -73,6 +73,7 @@ Json model_json(const mc::Study& study, const planning::ModelRanking& m) {
   out["of_the_file"] = m.of_the_file();
   out["terms"] = term_keys(m.model.spec.model().terms);
   out["bits"] = m.ranking.bits;
+  out["of_last_sample"] = of_the_last_sample(m);
   out["parameters"] = rows_json(ranking_table(m, nullptr));
   out["spectrum"] = spectrum_json(m.ranking);
   out["null_directions"] = directions_json(unseen_directions(m));
@@ -126,7 +127,7 @@ Json rank_document(const mc::Study& study, const planning::PlanRanking& rank) {
                  {"positions", study.plan.positions.size()},
                  {"hours", rank.duration / 3600.0}};
   out["linearised_at"] = rank.at_truth ? "truth means" : "prior means";
-  out["process_noise_left_out"] = rank.process_noise;
+  out["process_noise"] = rank.process_noise;
   out["assumed_field_gauss"] = rank.assumed_field_l
                                    ? numbers(Vec3(*rank.assumed_field_l / "gauss"_unit.to_si))
                                    : Json(nullptr);

@@ -50,6 +50,22 @@ std::string headline_of(const planning::RankingGroup& group, const planning::Mod
 
 }  // namespace
 
+std::vector<std::string> of_the_last_sample(const planning::ModelRanking& m) {
+  std::vector<std::string> keys;
+  for (const std::size_t k : m.ranking.walking) keys.push_back(parameter_key(m.ranking.layout, k));
+  return keys;
+}
+
+std::string walk_text(const planning::PlanRanking& rank) {
+  std::vector<std::string> parts;
+  for (const planning::RankingGroup& g : rank.groups)
+    if (const auto keys = of_the_last_sample(g.models.front()); !keys.empty())
+      parts.push_back(fmt::format("{} of {}", listed(keys, "and"), g.filters));
+  if (parts.empty()) return "";
+  return fmt::format("A drift that walks is that of the last sample, as the filter reports it: {}.",
+                     fmt::join(parts, "; "));
+}
+
 std::string field_remark(const planning::PlanRanking& rank) {
   return field_assumed_text(*rank.assumed_field_l) +
          ". What the error of that field adds to sigmas is not in them.";
@@ -61,8 +77,10 @@ std::vector<std::string> headlines(const mc::Study& study, const planning::PlanR
     for (const planning::ModelRanking& m : g.models) all.push_back(headline_of(g, m));
   if (rank.process_noise)
     all.push_back(
-        "A filter has process noise, which this information does not model: sigmas are lower "
-        "bounds.");
+        "The process noise of a filter is in its sigmas, which are those of its covariance along "
+        "the test.");
+  if (const std::string walk = walk_text(rank); !walk.empty())
+    all.push_back(walk + " Directions are of the drift that the test begins with.");
   if (rank.assumed_field_l) all.push_back(field_remark(rank));
   if (std::ranges::any_of(study.plan.positions,
                           [](const Position& p) { return p.mode == CommandLaw::free; }))
@@ -95,6 +113,7 @@ Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
   report.add({{"", std::move(words), On::terminal}, study_section(study)});
   report.footer = "Nothing is sampled: sigmas are Cramer-Rao bounds with the prior.";
   report.document = {"rank.json", dumped(document)};
+  report.files.emplace_back("ranking.csv", ranking_csv(rank));
   if (rank.better && !rank.better->improvement.steps.empty())
     report.files.emplace_back(proposed_positions, proposed_toml(study, rank));
   if (study.text.empty()) return report;

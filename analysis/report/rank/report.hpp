@@ -8,9 +8,9 @@
 
 namespace drift::report {
 
-/// All a ranking has to say: tables, pictures, rank.json (values in the units of study files),
-/// study.toml and, with an improvement, proposed_positions.toml and improved.toml, the study with
-/// these positions. `folder`: where all that is to be written; empty: nowhere.
+/// All a ranking has to say: tables, pictures, rank.json and ranking.csv (values in the units of
+/// study files), study.toml and, with an improvement, proposed_positions.toml and improved.toml,
+/// the study with these positions. `folder`: where all that is to be written; empty: nowhere.
 Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
                    const std::string& folder = "");
 

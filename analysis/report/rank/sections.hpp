@@ -47,6 +47,12 @@ InBrief rank_in_brief(const mc::Study& study, const planning::PlanRanking& rank,
 /// What a reader must not miss, one sentence each.
 std::vector<std::string> headlines(const mc::Study& study, const planning::PlanRanking& rank);
 
+/// Parameters that walk, "D_F_x": what is said of them is of the last sample.
+std::vector<std::string> of_the_last_sample(const planning::ModelRanking& model);
+/// That they are, of every filter of the file: "A drift that walks is that of ...: D_F_x of f.";
+/// empty where nothing walks.
+std::string walk_text(const planning::PlanRanking& rank);
+
 /// That a field had to be assumed, where it had: the remark that a diagnosis makes of it.
 std::string field_remark(const planning::PlanRanking& rank);
 
@@ -70,5 +76,9 @@ std::vector<NamedDirection> unseen_directions(const planning::ModelRanking& mode
 std::vector<NamedDirection> held_by_attitude(const planning::ModelRanking& model);
 
 Json rank_document(const mc::Study& study, const planning::PlanRanking& rank);
+
+/// ranking.csv: the rows of ranking_table() of every filter and model, in the units of study files,
+/// with all their digits.
+std::string ranking_csv(const planning::PlanRanking& rank);
 
 }  // namespace drift::report

@@ -16,12 +16,27 @@ namespace {
 /// The ranking of a filter's own model in a group of its plan.
 const planning::ModelRanking* ranking_of(const planning::PlanRanking& plan,
                                          const FilterSpec& filter) {
-  const Layout layout = make_layout(filter);
-  for (const planning::RankingGroup& group : plan.groups)
+  for (const planning::RankingGroup& group : plan.groups) {
+    if (std::ranges::find(group.each, filter.name, &planning::RankingGroup::Named::name) ==
+        group.each.end())
+      continue;
     for (const planning::ModelRanking& m : group.models)
-      if (m.model.spec.coupling == filter.coupling && m.ranking.layout.params == layout.params)
-        return &m;
+      if (m.model.spec.coupling == filter.coupling) return &m;
+  }
   return nullptr;
+}
+
+/// Whether the process noise of the truth is other than what a filter allows for, whose walk stands
+/// for jumps, too.
+observability::ProcessNoiseIs noise_beside(const TruthSpec& truth, const FilterSpec& filter) {
+  const Theta drawn = make_layout(truth).theta, known = make_layout(filter).theta;
+  const TermMask has = truth.model().terms, allows = filter.model().terms;
+  bool same = truth.noise.angle_random_walk == filter.noise.angle_random_walk &&
+              !is_bistable(has) && !is_bistable(allows);
+  for (int axis = 0; axis < 3; ++axis)
+    same = same && drift_walk(truth.noise, has, drawn, axis) ==
+                       drift_walk(filter.noise, allows, known, axis);
+  return same ? observability::ProcessNoiseIs::nowhere : observability::ProcessNoiseIs::there;
 }
 
 std::vector<observability::MonteCarloError> errors_of(const mc::FilterStatistics& found) {
@@ -98,9 +113,7 @@ Section information_section(const StudyResults& results, int threads) {
           model->ranking, errors_of(statistics_of(results, {p, f})),
           lacks.nothing() ? observability::TruthIs::the_model
                           : observability::TruthIs::another_model,
-          has_process_noise(study.truth) || has_process_noise(study.filters[f])
-              ? observability::ProcessNoiseIs::there
-              : observability::ProcessNoiseIs::nowhere);
+          noise_beside(study.truth, study.filters[f]));
       const std::string condition = condition_of(results.points[p]);
       section.add(
           {comparison_table(

@@ -76,6 +76,37 @@ TEST(Improve, EveryPromiseHoldsWhenThePlanIsRankedAnew) {
   }
 }
 
+TEST(Improve, EveryPromiseHoldsWhereSomethingRandomDrivesThePlatform) {
+  constexpr double per_sqrt_h = 1.0 / 60.0;  // [1/sqrt(s)]
+  const ProcessNoise angle{.angle_random_walk = 1e-3 * detail::deg * per_sqrt_h},
+      drift{.drift_random_walk = 0.02 * deg_per_h * per_sqrt_h};
+  struct Case {
+    const char* criterion;
+    ProcessNoise noise;
+  };
+  for (const Case& c : {Case{"A", angle}, {"A", drift}, {"D_F_z", drift}}) {
+    observability::RankedModel model = model_of(Coupling::eq5, {"D_F", "D_I", "eta"});
+    model.spec.noise = c.noise;
+    TestPlan plan = preset_plan("slew12", CommandLaw::free);
+    plan.positions.resize(2);
+    const planning::Criterion criterion =
+        planning::parse_criterion(c.criterion, make_layout(model.spec));
+    const planning::Improvement better = planning::improve_plan(plan, model, criterion, 2, 2);
+    ASSERT_EQ(better.steps.size(), 2u);
+    EXPECT_LT((better.before - learning_ratios(plan, model)).norm(), 1e-9);
+    for (const planning::ImprovementStep& s : better.steps) {
+      plan.positions.push_back(s.position);
+      const VecX now = learning_ratios(plan, model);
+      EXPECT_LT((s.learning_ratios.cwiseQuotient(now).array() - 1.0).abs().maxCoeff(), 1e-9)
+          << c.criterion;
+      // A drift that walks is soon known as well as it ever will be.
+      if (c.criterion == std::string("A")) {
+        EXPECT_LT(s.after, s.before);
+      }
+    }
+  }
+}
+
 TEST(Improve, TheChoiceIsTheBestOfAllCandidatesRankedInFull) {
   const observability::RankedModel model = model_of(Coupling::eq6, {"D_F", "eta"});
   TestPlan plan = preset_plan("slew12", CommandLaw::level);

@@ -97,6 +97,28 @@ TEST(RankPlan, DrawsTruthsFromWhatTheTruthLeavesOpenAlone) {
   EXPECT_TRUE(open_drift.elsewhere[eta_x].other_than(open_drift.ranking.learning_ratio(eta_x)));
 }
 
+TEST(RankPlan, FiltersOfOtherProcessNoiseAreRankedByThemselves) {
+  // D_F of the one that walks is that of the last sample, and less known.
+  const mc::Study study = mc::read_study_text(
+      torqued_twice + filter("still", "eq5") + filter("walking", "eq6") +
+          "drift_random_walk = \"0.01 deg/h/sqrt(h)\"\n" + filter("other", "eq6"),
+      "s.toml");
+  const planning::PlanRanking rank =
+      planning::rank_plan(study, {.threads = 1, .bins_per_dwell = 1});
+  ASSERT_EQ(rank.groups.size(), 2u);
+  EXPECT_EQ(rank.groups[0].filters, "still, other");
+  EXPECT_EQ(rank.groups[1].filters, "walking");
+  EXPECT_TRUE(rank.process_noise);
+  const observability::Ranking &still = rank.groups[0].models[1].ranking,
+                               &walking = rank.groups[1].models[0].ranking;
+  EXPECT_TRUE(still.walking.empty());
+  ASSERT_EQ(walking.walking.size(), 3u);
+  for (const std::size_t k : walking.walking)
+    EXPECT_GT(walking.learning_ratio(k), 1.1 * still.learning_ratio(k));
+  for (std::size_t k = 0; k < walking.parameters.size(); ++k)
+    EXPECT_GT(walking.learning_ratio(k), (1.0 - 1e-9) * still.learning_ratio(k));
+}
+
 TEST(RankPlan, KnowsNoOtherTruthWhereTheTruthIsNumbersAndAnEquation) {
   const std::string numbers =
       "coupling = \"eq5\"\n[truth.parameters]\nD_F = \"1 deg/h\"\nD_I_z = \"2 deg/h/g\"\n"

@@ -26,5 +26,12 @@ TEST(CsvField, IsQuotedWhereAReaderWouldTakeItApart) {
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
+TEST(CsvNumber, ReadsBackAsItIsAndIsNothingWhereThereIsNone) {
+  EXPECT_EQ(csv_number(0.1), "0.1");
+  EXPECT_EQ(std::stod(csv_number(1.0 / 3.0)), 1.0 / 3.0);
+  EXPECT_EQ(csv_number(std::nan("")), "");
+  EXPECT_EQ(csv_number(-HUGE_VAL), "");
+}
+
 }  // namespace
 }  // namespace drift::words_test

@@ -143,10 +143,10 @@ mode   = "level"
 
 TEST(RankBrief, WhatWasAskedForAndWhatLimitsItStandBeforeLists) {
   // The priors of three squares hold D_F_x to 0.1 deg/h / sqrt(3) whatever the plan.
-  const Answer a(with_squares("drift_random_walk = \"0.01 deg/h/sqrt(h)\"\n"),
+  const Answer a(with_squares("drift_random_walk = \"0.001 deg/h/sqrt(h)\"\n"),
                  {.improve = 1, .criterion = "D_F_x", .threads = 1});
   const std::size_t asked = place_of(a.brief, "No better plan was found for D_F_x"),
-                    noise = place_of(a.brief, "process noise"),
+                    noise = place_of(a.brief, "A drift that walks"),
                     list = place_of(a.brief, "Not seen under");
   ASSERT_NE(list, std::string::npos);
   EXPECT_EQ(asked, 0u);
@@ -156,7 +156,10 @@ TEST(RankBrief, WhatWasAskedForAndWhatLimitsItStandBeforeLists) {
       << "it is seen: " << a.brief.more.texts()[asked];
   const std::string said = brief_text(a.brief);
   EXPECT_TRUE(has(said, "No better plan was found for D_F_x")) << said;
-  EXPECT_TRUE(has(said, "not counted here: more is left")) << said;
+  EXPECT_EQ(a.brief.more.texts()[noise],
+            "A drift that walks is that of the last sample, as the filter reports it: D_F_x, D_F_y "
+            "and D_F_z of f.");
+  EXPECT_TRUE(has(said, "A drift that walks is that of the last sample")) << said;
   const std::string whole = whole_text(a.brief, 1000);
   for (const std::string& text : a.brief.more.texts()) EXPECT_TRUE(has(whole, text)) << text;
 }
