@@ -198,6 +198,7 @@ def an_identification_agrees_with_itself():
         variance = ds.covariance.sel(**place, parameter_2=row.parameter).item()
         assert abs(variance - row.sigma**2) < 1e-9 * row.sigma**2
     assert len(table) == 2 * (2 * 15 + 9)
+    assert ds.attrs["program"].startswith("driftscope ") and "[[filter]]" in ds.attrs["study"], "from what it was made"
     matrix = driftscope.covariance("identified", filter="eq6", correlation=True)
     assert matrix.shape == (9, 9) and np.allclose(np.diag(matrix), 1) and np.allclose(matrix, matrix.T)
     assert np.linalg.eigvalsh(matrix).min() > 0

@@ -9,26 +9,11 @@
 
 #include "core/base/check.hpp"
 #include "core/base/file_text.hpp"
-#include "core/config/load.hpp"
-#include "core/config/node.hpp"
-#include "core/config/override.hpp"
 #include "mc/store/same_study.hpp"
+#include "mc/store/study_identity.hpp"
 
 namespace drift::cli {
 namespace {
-
-/// Brings keys into one order wherever their order means nothing. That of [sweep] numbers the
-/// points.
-void sort_keys(config::Node& table) {
-  std::sort(table.members.begin(), table.members.end(),
-            [](const config::Member& a, const config::Member& b) { return a.key < b.key; });
-  for (auto& member : table.members) {
-    if (member.key == "sweep") continue;
-    if (member.value.is(config::Node::Kind::table)) sort_keys(member.value);
-    for (auto& item : member.value.items)
-      if (item.is(config::Node::Kind::table)) sort_keys(item);
-  }
-}
 
 /// A study file, or what is wrong with it.
 struct Reading {
@@ -47,7 +32,7 @@ Reading read_frozen(const std::string& folder, const mc::Manifest& manifest,
     mc::Study study = std::filesystem::exists(path, unknown) || unknown
                           ? mc::read_study(path, asked)
                           : mc::read_study_text(manifest.study, path, asked);
-    mc::StudyIdentity identity = identity_of(study);
+    mc::StudyIdentity identity = mc::identity_of(study);
     identity.block_size = manifest.identity.block_size;
     if (identity.hash() == manifest.hash) return {std::move(study), {}};
     return {std::nullopt, "changed since"};
@@ -57,20 +42,6 @@ Reading read_frozen(const std::string& folder, const mc::Manifest& manifest,
 }
 
 }  // namespace
-
-mc::StudyIdentity identity_of(const mc::Study& study) {
-  config::Node root = config::parse_document(study.text, study.path);
-  // The strata of a Latin hypercube are as many as its runs: it cannot be extended.
-  const config::Node* monte_carlo = root.find("monte_carlo");
-  const config::Node* design = monte_carlo != nullptr ? monte_carlo->find("design") : nullptr;
-  if (design == nullptr || design->text != "latin_hypercube")
-    config::apply_override(root, "monte_carlo.runs", "1");
-  config::apply_override(root, "monte_carlo.allowed_failures", "0");
-  config::apply_override(root, "monte_carlo.seed",
-                         std::to_string(study.monte_carlo.seed));  // where it is the default too
-  sort_keys(root);
-  return {config::to_document(root), study.monte_carlo.seed, mc::StudyIdentity{}.block_size};
-}
 
 FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reader,
                          const StudyProgram& program) {

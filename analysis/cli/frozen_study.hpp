@@ -9,10 +9,6 @@
 
 namespace drift::cli {
 
-/// What the bits of a study's runs depend on: its text in one order of keys, without the number of
-/// runs and of failures that are allowed.
-mc::StudyIdentity identity_of(const mc::Study& study);
-
 /// The study of a results folder, with the number of runs that was asked for last, and its work.
 struct FrozenStudy {
   mc::Study study;

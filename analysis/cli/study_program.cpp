@@ -4,24 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "analysis/cli/answer.hpp"
 #include "analysis/report/study/report.hpp"
-#include "mc/statistics/stop_rule.hpp"
+#include "mc/engine/study_work.hpp"
 #include "mc/store/provenance.hpp"
-#include "mc/task/study_task.hpp"
 
 namespace drift::cli {
 namespace {
-
-mc::StudyWork work_of(const mc::Study& study) {
-  const auto points = std::make_shared<const std::vector<mc::StudyPoint>>(mc::study_points(study));
-  mc::StudyWork work{mc::study_tasks(*points), {}};
-  if (mc::stop_rule(*points))
-    work.stop_rules = [points](std::size_t) { return mc::stop_rule(*points); };
-  return work;
-}
 
 /// Where the time of all sessions went.
 void add_speed(mc::StudyReader& reader, mc::Facts& facts) {
@@ -75,7 +65,7 @@ void present(const mc::Study& study, const mc::StudyWork& work, mc::StudyReader&
 }  // namespace
 
 StudyProgram study_program() {
-  return {work_of, present, mc::study_points};
+  return {mc::work_of, present, mc::study_points};
 }
 
 }  // namespace drift::cli

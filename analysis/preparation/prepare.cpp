@@ -23,11 +23,13 @@
 #include "analysis/preparation/lost_rows.hpp"
 #include "analysis/preparation/own_names.hpp"
 #include "analysis/preparation/plan_check.hpp"
+#include "analysis/preparation/recorded_test.hpp"
 #include "analysis/preparation/rounding_noise.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/plan_rows.hpp"
 #include "core/plan/shifted_numbers.hpp"
 #include "core/plan/timeline.hpp"
+#include "core/recording/rows/check_time.hpp"
 #include "core/recording/rows/join_rows.hpp"
 #include "core/recording/rows/reduce.hpp"
 #include "core/sim/measurements.hpp"
@@ -211,11 +213,12 @@ void take_uneven_rows(const Work& work) {
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows, Following following) {
-  DRIFT_DEMAND(!recordings.empty());
+  require_recordings(recordings);
   Prepared p{study, recordings, {}};
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
+    number_rows(r, r.rows());
     leave_out_fillers(r, p.remarks);
     leave_out_held_rows(r, p.remarks);
     leave_out_stuck(r, p.remarks);

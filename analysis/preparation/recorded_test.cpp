@@ -71,7 +71,24 @@ Measurements joined(const std::vector<Measurements>& parts) {
 
 }  // namespace
 
+void require_recordings(const std::vector<Recording>& recordings) {
+  if (recordings.empty())
+    throw InputError(
+        ExitCode::recording,
+        "no recording is given (expected at least one). Give one that was read or made");
+  std::vector<std::string> wrong;
+  for (const Recording& r : recordings) {
+    try {
+      check_recording(r, RecordingKind::platform);
+    } catch (const InputError& error) {
+      wrong.insert(wrong.end(), error.messages().begin(), error.messages().end());
+    }
+  }
+  if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
+}
+
 RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings) {
+  require_recordings(recordings);
   std::vector<Timeline> timelines;
   std::vector<Measurements> parts;
   std::vector<std::size_t> ends;

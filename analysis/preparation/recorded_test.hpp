@@ -17,9 +17,13 @@ struct RecordedTest {
   FieldKnown field = FieldKnown::declared_or_recorded;
 };
 
+/// InputError (recording) if there is no recording, or one is not as files are read
+/// (check_recording()).
+void require_recordings(const std::vector<Recording>& recordings);
+
 /// Lays recordings out by the study's plan, in the surroundings that they carry or, of a field that
 /// is known, that [environment] declares; else with the field of a dipole. InputError (recording)
-/// where one does not fit the plan, or where nothing is measured.
+/// where one does not fit the plan, where nothing is measured, and as require_recordings().
 RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings);
 
 /// A test that is planned, at the site of one that was recorded: with the vectors that

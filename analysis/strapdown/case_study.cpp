@@ -17,6 +17,7 @@
 #include "core/estimate/layout.hpp"
 #include "core/estimate/strapdown/accelerometer_fit.hpp"
 #include "core/estimate/strapdown/lone_samples.hpp"
+#include "core/recording/rows/check_time.hpp"
 #include "core/recording/rows/parabola.hpp"
 #include "core/recording/rows/smooth_reading.hpp"
 
@@ -193,8 +194,10 @@ void leave_out_not_measured(Recording& recording, std::vector<std::string>& rema
 }
 
 CaseStudy case_study(const mc::Study& study, const Recording& given) {
+  check_recording(given, RecordingKind::strapdown);
   CaseStudy out;
   Recording recording = given;
+  number_rows(recording, recording.rows());
   leave_out_not_measured(recording, out.remarks);
   out.source = recording.source;
   out.static_min = study.static_min;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/check.hpp"
 #include "core/estimate/descent.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
@@ -193,12 +194,15 @@ BatchResult fit_from(const FilterSpec& filter, const MeasuredTest& test, const S
 
 BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                       const BatchOptions& options) {
+  DRIFT_DEMAND(is_along(test.measured, test.timeline));
   const std::vector<Vec3> level(static_cast<std::size_t>(test.timeline.chains), Vec3::Zero());
   return fit_from(filter, test, {start, level, Known::parameters}, options);
 }
 
 BatchResult fit_batch_from(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                            const std::vector<Vec3>& psi0_l, const BatchOptions& options) {
+  DRIFT_DEMAND(is_along(test.measured, test.timeline));
+  DRIFT_DEMAND(psi0_l.size() == static_cast<std::size_t>(test.timeline.chains));
   return fit_from(filter, test, {start, psi0_l, Known::attitudes_too}, options);
 }
 

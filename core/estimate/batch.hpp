@@ -61,11 +61,13 @@ Theta theta_of(const FilterSpec& filter, const BatchResult& fit);
 /// it tells, the covariance by QR; the attitude at
 /// each caging is a nuisance with its own prior. The reference for the EKF: it relinearises until
 /// it stands still. Angle random walk of the filter is (whiten_random_walk), that of the drift is
-/// not. start: library values of the initial estimate.
+/// not. start: library values of the initial estimate. ContractError if what was measured has other
+/// columns than the timeline intervals.
 BatchResult fit_batch(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                       const BatchOptions& options = {});
 /// The same where the attitudes are known about as well: psi0_l of a fit beside this one [rad].
-/// That one has found the valley of lambda, too, which fit_batch looks for at both equations.
+/// That one has found the valley of lambda, too, which fit_batch looks for at both equations. The
+/// same error, also where there are others than the chains of the timeline.
 BatchResult fit_batch_from(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                            const std::vector<Vec3>& psi0_l, const BatchOptions& options = {});
 

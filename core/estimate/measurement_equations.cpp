@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/check.hpp"
 #include "core/estimate/rest_rate.hpp"
 
 namespace drift {
@@ -39,7 +40,7 @@ MeasurementEquations::MeasurementEquations(const MeasuredTest& test,
                                            const CompressedTest* compressed,
                                            const DriftModel& model, const Layout& layout,
                                            double sigma_attitude)
-    : test_(test),
+    : test_((DRIFT_DEMAND(is_along(test.measured, test.timeline)), test)),
       compressed_(compressed),
       model_(model),
       layout_(layout),

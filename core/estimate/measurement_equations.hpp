@@ -16,7 +16,7 @@ struct ChainEquations {
 class MeasurementEquations {
  public:
   /// sigma_attitude: prior of the attitude at each caging [rad]. What the test refers to must
-  /// outlive it.
+  /// outlive it. ContractError if what was measured has other columns than the timeline intervals.
   MeasurementEquations(const MeasuredTest& test, const DriftModel& model, const Layout& layout,
                        double sigma_attitude);
   /// The same of a test whose stretches are compressed.

@@ -108,7 +108,8 @@ struct Timeline {
 Timeline lay_out(const TestPlan& plan, const Site& site);
 
 /// The same from a recording: its times, positions, commands and headings. What the recording does
-/// not say comes from the plan. InputError (recording) if they do not fit each other.
+/// not say comes from the plan. InputError (recording) if they do not fit each other. ContractError
+/// if it has no time or position, or channels of unequal lengths (check_recording()).
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site);
 
 /// Computes the nodes from the intervals. R_lp is the nominal attitude at the start of each chain;

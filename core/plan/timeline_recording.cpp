@@ -289,6 +289,8 @@ class Reader {
 }  // namespace
 
 Timeline lay_out(const Recording& recording, const TestPlan& plan, const Site& site) {
+  DRIFT_DEMAND(recording.find("time") != nullptr && recording.find("position") != nullptr);
+  for (const Channel& c : recording.channels) DRIFT_DEMAND(c.values.size() == recording.rows());
   require_memory(memory_of_samples(static_cast<double>(recording.rows())), ExitCode::recording,
                  fmt::format("{}: {} rows", recording.source, recording.rows()),
                  "Average the rows to longer samples, or cut the recording");

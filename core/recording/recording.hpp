@@ -56,6 +56,13 @@ struct RecordingFormat;
 Recording read_recording(const std::string& path, const RecordingFormat& format, RecordingKind kind,
                          double gravity);
 
+/// Looks over a recording that was not read from a file, as read_recording() looks over those that
+/// are: channels of one length, time and the others that its kind needs, times that increase,
+/// positions that are whole numbers from 1 on in the order of the plan, phases 0 or 1, a command in
+/// every row, nothing infinite; NaN where a sensor was not measured. InputError (recording) lists
+/// every problem found. What was read from a file passes.
+void check_recording(const Recording& recording, RecordingKind kind);
+
 /// Writes by extension, through a temporary file that is renamed when complete.
 /// InputError (io) if that fails; the target is then as it was.
 void write_recording(const Recording& recording, const std::string& path);

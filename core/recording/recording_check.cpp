@@ -15,7 +15,6 @@
 #include "core/recording/rows/commanded_slews.hpp"
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
-#include "core/recording/rows/held_order.hpp"
 #include "core/recording/rows/turned_rows.hpp"
 #include "core/recording/sexagesimal.hpp"
 
@@ -41,7 +40,70 @@ void check_names(const RawRecording& raw, Problems& problems) {
                    "Save the file as UTF-8");
 }
 
-/// not_counted: why positions could not be counted where no column has them.
+void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
+  bool measured = false;
+  for (const auto& c : r.channels) {
+    const auto quantity = known_quantity(c.name);
+    // In a unit that is not known, or that measures something else, no number is beyond reason.
+    const double most = quantity && quantity->unit.dim == c.unit.dim
+                            ? quantity->most
+                            : std::numeric_limits<double>::max();
+    const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
+    std::string fix;  // of the first: rows with the same one are one message
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      const double x = c.values[i];
+      check_value(r, c, i, kind, problems);
+      if (std::isfinite(x) && std::abs(x) > most) add_unreasonable(r, c, i, most, fix, problems);
+      measured = measured || (sensor && std::isfinite(x));
+    }
+  }
+  if (!measured && !problems.any())
+    problems.add("", "no accelerometer or gimbal angle was measured in any row",
+                 "numbers in at least one sensor column", "Check how the recording was exported");
+}
+
+/// Temperatures in degC, as terms take them; of covariates only the differences count.
+Unit made_celsius(std::vector<double>& values, const Unit& unit) {
+  const double offset = celsius_offset(unit);
+  if (offset == 0.0) return unit;
+  for (double& x : values) x += offset;
+  return "degC"_unit;
+}
+
+/// Makes angles decimal where their digits are minutes and seconds, or looks whether they are.
+void take_digits(RawColumn& column, AngleDigits said, const Recording& r, MinutesAndSeconds& digits,
+                 Problems& problems) {
+  if (said == AngleDigits::automatic && column.name.starts_with("gimbal_"))
+    digits.look_at(column.values);
+  if (said != AngleDigits::minutes_and_seconds) return;
+  for (std::size_t i = 0; i < column.values.size(); ++i) {
+    const double number = column.values[i];
+    if (std::isnan(number)) continue;
+    column.values[i] = angle_from_minutes_and_seconds(number);
+    if (std::isnan(column.values[i]))
+      problems.add(place_in(r, i, column.name),
+                   fmt::format("{} has 60 minutes or seconds, or more", number),
+                   "degrees, minutes and seconds as in 45.3015",
+                   "Remove angles = \"dd.mmss\" from [recording] of the study file if the angles "
+                   "are decimal");
+  }
+}
+
+bool equal_lengths(const RawRecording& raw, Problems& problems) {
+  const std::size_t rows = raw.columns.front().values.size();
+  bool equal = true;
+  for (const auto& c : raw.columns)
+    if (c.values.size() != rows) {
+      equal = false;
+      problems.add(c.name, fmt::format("{} values", c.values.size()),
+                   fmt::format("{}, as in {}", rows, raw.columns.front().name),
+                   "Give every channel one value per row; remove what is no channel");
+    }
+  return equal;
+}
+
+}  // namespace
+
 void check_columns(const Recording& r, RecordingKind kind, const std::string& not_counted,
                    Problems& problems) {
   std::string present;
@@ -103,111 +165,16 @@ void check_columns(const Recording& r, RecordingKind kind, const std::string& no
                  "acc_x, acc_y, acc_z or gimbal_outer, gimbal_middle, gimbal_inner, or both", hint);
 }
 
-/// Whether the rows come in the order of time.
-enum class RowOrder { known, broken };
-
-void check_position(const Recording& r, RowOrder order, Problems& problems) {
-  const Channel* position = r.find("position");
-  if (!position) return;
-  double last = 1.0;
-  for (std::size_t i = 0; i < r.rows(); ++i) {
-    const double p = position->values[i];
-    if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
-      problems.add(place_in(r, i, "position"),
-                   std::isnan(p) ? "no position is given" : fmt::format("the position is {}", p),
-                   "a whole number from 1 on",
-                   "Give the number of the plan's position, or say in [recording] of the study "
-                   "file which is which: positions = { \"NUMBER IN THE FILE\" = NUMBER IN THE "
-                   "PLAN, ... }, 0 where it is turned between two positions");
-    } else if (p < last && order == RowOrder::known) {
-      problems.add(place_in(r, i, "position"), fmt::format("position {} comes after {}", p, last),
-                   "positions in the order of the plan", held_order_advice(position->values));
-    } else {
-      last = p;
-    }
-  }
-}
-
-void check_phase(const Recording& r, Problems& problems) {
-  const Channel* phase = r.find("phase");
-  if (!phase) return;
-  for (std::size_t i = 0; i < r.rows(); ++i)
-    if (const double p = phase->values[i]; !(p == 0.0 || p == 1.0))
-      problems.add(place_in(r, i, "phase"), fmt::format("the phase is {}", p),
-                   "0 (dwell) or 1 (slew)", "Correct the phase");
-}
-
-void check_values(const Recording& r, RecordingKind kind, Problems& problems) {
-  bool measured = false;
-  for (const auto& c : r.channels) {
-    const bool command = c.name.starts_with("cmd_") && kind == RecordingKind::platform;
-    const auto quantity = known_quantity(c.name);
-    // In a unit that is not known, or that measures something else, no number is beyond reason.
-    const double most = quantity && quantity->unit.dim == c.unit.dim
-                            ? quantity->most
-                            : std::numeric_limits<double>::max();
-    const bool sensor = c.name.starts_with("acc_") || c.name.starts_with("gimbal_");
-    std::string fix;  // of the first: rows with the same one are one message
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      const double x = c.values[i];
-      if (std::isinf(x)) {
-        problems.add(place_in(r, i, c.name), "the value is infinite", "a finite number",
-                     "Leave the cell empty (nan) if it was not measured");
-      } else if (std::abs(x) > most) {
-        add_unreasonable(r, c, i, most, fix, problems);
-      }
-      if (std::isnan(x) && command)
-        problems.add(place_in(r, i, c.name), "the command is missing",
-                     "the commanded rate in every row", "Give the command, 0 if there was none");
-      measured = measured || (sensor && std::isfinite(x));
-    }
-  }
-  if (!measured && !problems.any())
-    problems.add("", "no accelerometer or gimbal angle was measured in any row",
-                 "numbers in at least one sensor column", "Check how the recording was exported");
-}
-
-/// Temperatures in degC, as terms take them; of covariates only the differences count.
-Unit made_celsius(std::vector<double>& values, const Unit& unit) {
-  const double offset = celsius_offset(unit);
-  if (offset == 0.0) return unit;
-  for (double& x : values) x += offset;
-  return "degC"_unit;
-}
-
-/// Makes angles decimal where their digits are minutes and seconds, or looks whether they are.
-void take_digits(RawColumn& column, AngleDigits said, const Recording& r, MinutesAndSeconds& digits,
+void check_value(const Recording& r, const Channel& c, std::size_t row, RecordingKind kind,
                  Problems& problems) {
-  if (said == AngleDigits::automatic && column.name.starts_with("gimbal_"))
-    digits.look_at(column.values);
-  if (said != AngleDigits::minutes_and_seconds) return;
-  for (std::size_t i = 0; i < column.values.size(); ++i) {
-    const double number = column.values[i];
-    if (std::isnan(number)) continue;
-    column.values[i] = angle_from_minutes_and_seconds(number);
-    if (std::isnan(column.values[i]))
-      problems.add(place_in(r, i, column.name),
-                   fmt::format("{} has 60 minutes or seconds, or more", number),
-                   "degrees, minutes and seconds as in 45.3015",
-                   "Remove angles = \"dd.mmss\" from [recording] of the study file if the angles "
-                   "are decimal");
-  }
+  const double x = c.values[row];
+  if (std::isinf(x))
+    problems.add(place_in(r, row, c.name), "the value is infinite", "a finite number",
+                 "Leave the cell empty (nan) if it was not measured");
+  else if (std::isnan(x) && kind == RecordingKind::platform && c.name.starts_with("cmd_"))
+    problems.add(place_in(r, row, c.name), "the command is missing",
+                 "the commanded rate in every row", "Give the command, 0 if there was none");
 }
-
-bool equal_lengths(const RawRecording& raw, Problems& problems) {
-  const std::size_t rows = raw.columns.front().values.size();
-  bool equal = true;
-  for (const auto& c : raw.columns)
-    if (c.values.size() != rows) {
-      equal = false;
-      problems.add(c.name, fmt::format("{} values", c.values.size()),
-                   fmt::format("{}, as in {}", rows, raw.columns.front().name),
-                   "Give every channel one value per row; remove what is no channel");
-    }
-  return equal;
-}
-
-}  // namespace
 
 void add_unreasonable(const Recording& r, const Channel& c, std::size_t row, double most,
                       std::string& fix, Problems& problems) {
@@ -252,10 +219,7 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
                  "Check how the recording was exported");
   r.facts = std::move(raw.facts);
   r.lines = std::move(raw.lines);
-  if (r.lines.empty()) {
-    r.lines.resize(rows);
-    for (std::size_t i = 0; i < rows; ++i) r.lines[i] = i + 1;
-  }
+  number_rows(r, rows);
   MinutesAndSeconds digits;
   if (raw.settled) check_units_given(raw.columns, {kind, raw.kind, gravity}, problems);
   for (auto& c : raw.columns) {

@@ -16,6 +16,15 @@ namespace drift {
 Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity,
                             Problems& problems);
 
+/// Adds a problem for every column that the kind needs and is not there, alone or as one of three.
+/// not_counted: why positions could not be counted where no column has them.
+void check_columns(const Recording& recording, RecordingKind kind, const std::string& not_counted,
+                   Problems& problems);
+
+/// Adds a problem for a value that is infinite, or that of a command that is missing.
+void check_value(const Recording& recording, const Channel& channel, std::size_t row,
+                 RecordingKind kind, Problems& problems);
+
 /// The value of a row that is farther from zero than `most` [SI] is. fix: empty before the first of
 /// its channel; rows with the same one are one message.
 void add_unreasonable(const Recording& recording, const Channel& channel, std::size_t row,

@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "core/base/check.hpp"
+
 namespace drift {
 namespace {
 
@@ -32,6 +34,7 @@ Measurements measurements_of(const Recording& recording, const Readout& readout)
 
 Recording make_recording(const Timeline& timeline, const Measurements& measured,
                          const Readout& readout) {
+  DRIFT_DEMAND(is_along(measured, timeline));
   Recording rec;
   const std::size_t n = timeline.intervals.size();
   const auto add = [&](std::string_view name, const Unit& unit, auto&& value) {

@@ -17,10 +17,18 @@ struct Measurements {
   Mat3X gimbal;  ///< outer, middle, inner at the end of the interval [rad]
 };
 
+/// Whether there is a column for every interval of a timeline, and no more: what the estimators
+/// demand.
+inline bool is_along(const Measurements& measured, const Timeline& timeline) {
+  const auto intervals = static_cast<Eigen::Index>(timeline.intervals.size());
+  return measured.acc.cols() == intervals && measured.gimbal.cols() == intervals;
+}
+
 /// The channels acc_* and gimbal_* of a recording; absent or unread channels are all NaN.
 Measurements measurements_of(const Recording& recording, const Readout& readout);
 
 /// A recording of what was measured along a timeline, in the units of core/docs/recording.md.
+/// ContractError if there are other columns than intervals.
 Recording make_recording(const Timeline& timeline, const Measurements& measured,
                          const Readout& readout);
 

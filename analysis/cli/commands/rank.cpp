@@ -5,7 +5,6 @@
 
 #include "analysis/cli/answer.hpp"
 #include "analysis/cli/command.hpp"
-#include "analysis/cli/frozen_study.hpp"
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/progress.hpp"
 #include "analysis/cli/sharing.hpp"
@@ -15,6 +14,7 @@
 #include "analysis/report/study/truth_memory.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/base/results/turn.hpp"
+#include "mc/store/study_identity.hpp"
 #include "mc/study/study_notes.hpp"
 
 namespace drift::cli {
@@ -43,8 +43,8 @@ bool is_shared(const RankArguments& options) {
 std::unique_ptr<planning::SharedSteps> shared_steps(const mc::Study& study,
                                                     const RankArguments& options) {
   const std::string folder = planning::steps_folder(options.folder);
-  const mc::Manifest manifest =
-      planning::steps_manifest(identity_of(study), study.text, options.improve, options.criterion);
+  const mc::Manifest manifest = planning::steps_manifest(mc::identity_of(study), study.text,
+                                                         options.improve, options.criterion);
   begin_results({options.folder, "rank"});
   mc::claim_folder(folder, manifest);
   return std::make_unique<planning::SharedSteps>(folder, manifest, options.sharing.session());

@@ -16,6 +16,7 @@
 #include "core/base/words.hpp"
 #include "mc/engine/engine.hpp"
 #include "mc/export/export_text.hpp"
+#include "mc/store/study_identity.hpp"
 #include "mc/store/study_state.hpp"
 #include "mc/study/study_notes.hpp"
 #include "mc/task/campaign.hpp"
@@ -124,7 +125,7 @@ ExitCode run(const StudyArguments& arguments, const RunArguments& given,
   options.max_wall = given.sharing.seconds();
   options.fail_fast = given.fail_fast;
   const mc::StudyWork work = program.work(study);
-  mc::Manifest manifest = mc::make_manifest(identity_of(study), study.text, work.points);
+  mc::Manifest manifest = mc::make_manifest(mc::identity_of(study), study.text, work.points);
   manifest.runs = options.runs;
   const std::string folder = given.folder.empty() ? default_folder(arguments.config) : given.folder;
   mc::Ranks ranks;

@@ -11,12 +11,27 @@
 #include "analysis/report/identify/sections.hpp"
 #include "analysis/report/page/planned_study.hpp"
 #include "analysis/report/page/study_section.hpp"
+#include "core/base/sha256.hpp"
 #include "core/recording/recording_output.hpp"
 
 namespace drift::report {
 namespace {
 
 constexpr const char* corrected = "corrected.toml";  ///< where the plan was not the recording's
+
+/// From what and with what a report was made, as an export of a study says it (provenance_of()).
+mc::Facts facts_of(const Report& report) {
+  mc::Facts facts = mc::provenance();
+  std::string recordings;
+  for (const SourceFile& file : report.provenance.recordings)
+    recordings += fmt::format("{}{} {}", recordings.empty() ? "" : "\n", file.sha256, file.path);
+  if (!recordings.empty()) facts.emplace_back("recordings", recordings);
+  const auto study = std::ranges::find(report.files, "study.toml", &TextFile::first);
+  if (study == report.files.end()) return facts;
+  facts.insert(facts.begin(), {"study_sha256", sha256_hex(study->second)});
+  facts.emplace_back("study", study->second);
+  return facts;
+}
 
 }  // namespace
 
@@ -67,7 +82,7 @@ std::vector<std::string> write_identification(const Report& report,
     results.remove(corrected);
   const std::string arrays = "identification.nc";
   results.add(arrays, [&](const std::string& temporary) {
-    write_identification_netcdf(id, arrays, temporary);
+    write_identification_netcdf(id, facts_of(report), arrays, temporary);
   });
   const bool several = id.recordings.size() > 1;
   const auto name_of = [](std::size_t k) { return fmt::format("recording_{}.csv", k + 1); };

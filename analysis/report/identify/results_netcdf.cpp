@@ -87,7 +87,11 @@ void put_estimates(NamedGroup& group, const Places& at, const std::vector<NamedR
             {"parameter_unit times that of parameter_2", "covariance of the estimate"}, covariance);
   group.put("correlation", of_pair, {"1", "the same over the sigmas of both"}, correlation);
   group.put("fit", of_fit, {"1", "how the fit ended: 0 ok, 1 not converged, 2 diverged"}, status);
-  group.put("chi2", of_fit, {"1", "ekf: sum of the NIS; batch: minimum of data and prior cost"},
+  group.put("chi2", of_fit,
+            {"1",
+             "ekf: sum of the NIS; batch: minimum of the cost, which is the sum of squares of the "
+             "data (residual), of the parameters about their priors and of the attitudes at each "
+             "caging about theirs, each over its sigma"},
             chi2);
   group.put("dof", of_fit, {"1", "measured scalars"}, dof);
 }
@@ -138,10 +142,12 @@ void put_samples(NamedGroup& group, const Places& at, const identification::Iden
             scalars);
 }
 
-void write_results(const identification::Identification& id, const std::string& path) {
+void write_results(const identification::Identification& id, const mc::Facts& facts,
+                   const std::string& path) {
   const std::vector<NamedResult> results = named_results(id);
   const Places at(results);
   mc::Hdf5Output file(path);
+  for (const auto& [key, value] : facts) file.set_text("/", key, value);
   NamedGroup group(file, "");
   group.name_along("estimator", {"ekf", "batch"}, "how it was estimated");
   group.name_along("filter", at.filters, "filter of the study");
@@ -164,10 +170,10 @@ void write_results(const identification::Identification& id, const std::string& 
 
 }  // namespace
 
-void write_identification_netcdf(const identification::Identification& id, const std::string& path,
-                                 const std::string& temporary) {
+void write_identification_netcdf(const identification::Identification& id, const mc::Facts& facts,
+                                 const std::string& path, const std::string& temporary) {
   try {
-    write_results(id, temporary);
+    write_results(id, facts, temporary);
   } catch (const mc::Hdf5Output::Refused&) {
     throw_cannot_write(path, "HDF5 cannot complete the file, or it does not read back as written");
   }

@@ -5,6 +5,7 @@
 
 #include "analysis/identification/identify.hpp"
 #include "core/base/results/folder.hpp"
+#include "mc/store/provenance.hpp"
 
 namespace drift::report {
 
@@ -40,8 +41,9 @@ std::vector<double> whitened_residuals(const identification::FilterRun& run, std
 std::vector<TextFile> result_tables(const identification::Identification& id);
 
 /// The same as netCDF-4 with dimensions estimator, filter, start, parameter, sample, channel.
-/// InputError (io) naming `path`; the file is written to `temporary`.
-void write_identification_netcdf(const identification::Identification& id, const std::string& path,
-                                 const std::string& temporary);
+/// facts: its attributes, from what and with what it was made. InputError (io) naming `path`; the
+/// file is written to `temporary`.
+void write_identification_netcdf(const identification::Identification& id, const mc::Facts& facts,
+                                 const std::string& path, const std::string& temporary);
 
 }  // namespace drift::report

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/check.hpp"
 #include "core/plan/stretches_and_chains.hpp"
 
 namespace drift {
@@ -145,6 +146,7 @@ AxisReading CompressedTest::how_to_read(const Stretch& stretch, Reading what,
 }
 
 void CompressedTest::read(const Measurements& measured) {
+  DRIFT_DEMAND(is_along(measured, whole_));
   left_over_ = 0.0;
   scalars_ = 0;
   with_gaps_.clear();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/check.hpp"
+
 namespace drift {
 
 Ekf::Ekf(const FilterSpec& filter, const Timeline& timeline, const Readout& readout,
@@ -31,6 +33,7 @@ void Ekf::reset(const Theta& start) {
 }
 
 void Ekf::process(std::size_t i, const Vec3& acc, const Vec3& gimbal) {
+  DRIFT_DEMAND(i < timeline_.intervals.size());
   const IntervalStep::Taken taken = step_.process(i, acc, gimbal);
   if (keep_ == KeepHistory::no) return;
   history_.t[i] = timeline_.intervals[i].t1;
@@ -59,6 +62,7 @@ EstimateResult Ekf::result() const {
 EstimateResult run_ekf(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                        EkfHistory* history) {
   const auto& [timeline, readout, measured] = test;
+  DRIFT_DEMAND(is_along(measured, timeline));
   Ekf ekf(filter, timeline, readout, start, history ? KeepHistory::yes : KeepHistory::no);
   for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
     ekf.process(i, measured.acc.col(i), measured.gimbal.col(i));

@@ -28,7 +28,8 @@ class Ekf {
   /// As if built anew from this start; allocates nothing.
   void reset(const Theta& start);
 
-  /// Takes in the measurements of interval i; intervals come in order.
+  /// Takes in the measurements of interval i; intervals come in order. ContractError if the
+  /// timeline has no such interval.
   void process(std::size_t i, const Vec3& acc, const Vec3& gimbal);
 
   EstimateResult result() const;
@@ -58,7 +59,8 @@ class Ekf {
   KeepHistory keep_;
 };
 
-/// Runs the filter over a whole recording.
+/// Runs the filter over a whole recording. ContractError if what was measured has other columns
+/// than the timeline intervals.
 EstimateResult run_ekf(const FilterSpec& filter, const MeasuredTest& test, const Theta& start,
                        EkfHistory* history = nullptr);
 

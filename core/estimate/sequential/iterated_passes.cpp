@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/check.hpp"
 #include "core/base/number_text.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/plan/stretches_and_chains.hpp"
@@ -40,6 +41,7 @@ IteratedPasses::IteratedPasses(const FilterSpec& filter, const Timeline& timelin
 }
 
 const FilterEstimate& IteratedPasses::run(const Measurements& measured, const Theta& start) {
+  DRIFT_DEMAND(is_along(measured, timeline_));
   if (!first_pass(measured, start)) return *this;
   double step = 0.0;
   for (int pass = 0; pass < most_passes; ++pass) {

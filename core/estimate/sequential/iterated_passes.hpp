@@ -37,7 +37,8 @@ class IteratedPasses : public FilterEstimate {
                  const Theta& start);
 
   /// As if built anew from this start, over a whole recording. The estimate stays until the next
-  /// run. Allocates nothing from the second time on.
+  /// run. Allocates nothing from the second time on. ContractError if the recording has other
+  /// columns than the timeline intervals.
   const FilterEstimate& run(const Measurements& measured, const Theta& start);
   const Layout& layout() const { return rows_.layout(); }
   /// Why a filter has not converged, step: of its last pass, in posterior sigmas.

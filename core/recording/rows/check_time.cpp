@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/recording/own/clock.hpp"
+#include "core/recording/rows/held_order.hpp"
 
 namespace drift {
 namespace {
@@ -23,7 +25,7 @@ bool report_shared_times(const Recording& r, const Channel& time, Problems& prob
   problems.add(
       place_in(r, first, "time"),
       fmt::format("{} s repeats {} s at {}, and so do the times of {} of {} rows",
-                  time.values[first], time.values[first], r.lines[first - 1], shared, r.rows()),
+                  time.values[first], time.values[first], line_of(r, first - 1), shared, r.rows()),
       "times that tell the rows apart",
       "Log finer times (seconds, where minutes are written): as coarse as these they are read only "
       "where rows are evenly spaced and none is lost or written twice");
@@ -40,7 +42,7 @@ bool report_twelve_hours(const Recording& r, const Channel& time, Problems& prob
     const double before = time.values[i - 1], after = time.values[i];
     if (!(after < before) || hour(before) != 12.0 || hour(after) != 1.0) continue;
     problems.add(place_in(r, i, "time"),
-                 fmt::format("{} s comes after {} s at {}", after, before, r.lines[i - 1]),
+                 fmt::format("{} s comes after {} s at {}", after, before, line_of(r, i - 1)),
                  "time to increase from row to row",
                  "This seems to be a clock of 12 hours, at one o'clock: write AM or PM behind the "
                  "times, or hours from 0 to 23 (13:00 after 12:59)");
@@ -51,8 +53,18 @@ bool report_twelve_hours(const Recording& r, const Channel& time, Problems& prob
 
 }  // namespace
 
+std::size_t line_of(const Recording& r, std::size_t row) {
+  return row < r.lines.size() ? r.lines[row] : row + 1;
+}
+
+void number_rows(Recording& r, std::size_t rows) {
+  if (!r.lines.empty()) return;
+  r.lines.resize(rows);
+  std::iota(r.lines.begin(), r.lines.end(), 1);
+}
+
 std::string place_in(const Recording& r, std::size_t row, std::string_view column) {
-  return fmt::format("{}:{}", r.lines[row], column);
+  return fmt::format("{}:{}", line_of(r, row), column);
 }
 
 bool begins_again_at_midnight(double before, double after) {
@@ -75,7 +87,7 @@ void check_time(const Recording& r, Problems& problems) {
       problems.add(
           place_in(r, i, "time"),
           fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
-                      r.lines[last_row]),
+                      line_of(r, last_row)),
           "time to increase from row to row",
           begins_again_at_midnight(last, t)
               ? "If this is a clock that begins again at midnight, read it as a counter in "
@@ -91,6 +103,37 @@ void check_time(const Recording& r, Problems& problems) {
       last_row = i;
     }
   }
+}
+
+void check_position(const Recording& r, RowOrder order, Problems& problems) {
+  const Channel* position = r.find("position");
+  if (!position) return;
+  double last = 1.0;
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    const double p = position->values[i];
+    if (!(p >= 1.0 && p <= 1e9) || p != std::floor(p)) {
+      problems.add(place_in(r, i, "position"),
+                   std::isnan(p) ? "no position is given" : fmt::format("the position is {}", p),
+                   "a whole number from 1 on",
+                   "Give the number of the plan's position, or say in [recording] of the study "
+                   "file which is which: positions = { \"NUMBER IN THE FILE\" = NUMBER IN THE "
+                   "PLAN, ... }, 0 where it is turned between two positions");
+    } else if (p < last && order == RowOrder::known) {
+      problems.add(place_in(r, i, "position"), fmt::format("position {} comes after {}", p, last),
+                   "positions in the order of the plan", held_order_advice(position->values));
+    } else {
+      last = p;
+    }
+  }
+}
+
+void check_phase(const Recording& r, Problems& problems) {
+  const Channel* phase = r.find("phase");
+  if (!phase) return;
+  for (std::size_t i = 0; i < r.rows(); ++i)
+    if (const double p = phase->values[i]; !(p == 0.0 || p == 1.0))
+      problems.add(place_in(r, i, "phase"), fmt::format("the phase is {}", p),
+                   "0 (dwell) or 1 (slew)", "Correct the phase");
 }
 
 }  // namespace drift

@@ -8,6 +8,12 @@
 
 namespace drift {
 
+/// The line of a row, for messages; rows that have none are counted from 1.
+std::size_t line_of(const Recording& recording, std::size_t row);
+
+/// Counts that many rows from 1 where they have no lines.
+void number_rows(Recording& recording, std::size_t rows);
+
 /// Where a row is, for messages: "line:column".
 std::string place_in(const Recording& recording, std::size_t row, std::string_view column);
 
@@ -18,5 +24,15 @@ bool begins_again_at_midnight(double before, double after);
 /// Adds a problem for every row without a time or with one that does not come after those before;
 /// one for all rows where so many share a time that it is written too coarsely.
 void check_time(const Recording& recording, Problems& problems);
+
+/// Whether the rows come in the order of time.
+enum class RowOrder { known, broken };
+
+/// Adds a problem for every row without a position of the plan, or with one that comes after a
+/// later one.
+void check_position(const Recording& recording, RowOrder order, Problems& problems);
+
+/// Adds a problem for every row that is neither of a dwell nor of a slew.
+void check_phase(const Recording& recording, Problems& problems);
 
 }  // namespace drift

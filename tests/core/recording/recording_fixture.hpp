@@ -87,17 +87,24 @@ inline double ulps(double a, double b) {
   return std::abs(a - b) / (std::nextafter(std::abs(a), HUGE_VAL) - std::abs(a));
 }
 
-/// What reading answers: "" if it reads, else all messages; the exit code beside it.
+/// What reading answers: "" if it reads, else all messages; the exit code beside it, -1 if what is
+/// read is refused as a recording.
 struct Reading {
   int code = 0;
   std::string text;
 };
 inline Reading answer(const std::string& path, RecordingKind kind) {
+  Recording read;
   try {
-    read_recording(path, kind, gravity);
-    return {};
+    read = read_recording(path, kind, gravity);
   } catch (const InputError& e) {
     return {static_cast<int>(e.code()), e.what()};
+  }
+  try {
+    check_recording(read, kind);
+    return {};
+  } catch (const InputError& e) {
+    return {-1, e.what()};
   }
 }
 

@@ -85,6 +85,7 @@ TEST_P(LabRecording, IsReadRightlyOrRefusedWithOneMessage) {
     return;
   }
   ASSERT_TRUE(v.refused.empty()) << "it was read";
+  EXPECT_NO_THROW(check_recording(r, study.kind));
   const Recording& truth = simulated();
   ASSERT_EQ(r.rows() + v.rows_lost, truth.rows());
   for (const LabColumn& c : lab.columns) {

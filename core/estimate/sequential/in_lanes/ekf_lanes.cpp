@@ -43,7 +43,10 @@ void EkfLanes::begin(EkfHistory& history) const {
 
 void EkfLanes::begin(std::span<EkfJob> jobs) {
   lanes_ = jobs;
-  for (EkfJob& job : jobs) job.begin_anew();
+  for (EkfJob& job : jobs) {
+    DRIFT_DEMAND(job.measured != nullptr && is_along(*job.measured, timeline_));
+    job.begin_anew();
+  }
   for (std::size_t l = 0; l < width; ++l)
     recordings_[l] = jobs[std::min(l, jobs.size() - 1)].measured;
   for (std::size_t k = 0; k < x_.size(); ++k)

@@ -30,7 +30,8 @@ class EkfLanes {
   /// The timeline must outlive it.
   EkfLanes(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
 
-  /// Allocates nothing once every job has been run.
+  /// Allocates nothing once every job has been run. ContractError if a recording has other columns
+  /// than the timeline intervals.
   void run(std::span<EkfJob> jobs);
   /// The same, and how each of them went.
   void run(std::span<EkfJob> jobs, std::span<EkfHistory> histories);

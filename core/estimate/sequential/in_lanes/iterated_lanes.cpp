@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/check.hpp"
 #include "core/estimate/compressed/stretch_rows.hpp"
 #include "core/plan/stretches_and_chains.hpp"
 
@@ -82,7 +83,10 @@ void IteratedLanes::prepare(IteratedJob& job) const {
 
 void IteratedLanes::run(std::span<IteratedJob> jobs) {
   jobs_.clear();
-  for (IteratedJob& job : jobs) jobs_.push_back(&job);
+  for (IteratedJob& job : jobs) {
+    DRIFT_DEMAND(job.measured != nullptr && is_along(*job.measured, timeline_));
+    jobs_.push_back(&job);
+  }
   run(jobs_);
 }
 

@@ -39,7 +39,8 @@ class IteratedLanes {
   /// The timeline must outlive it.
   IteratedLanes(const FilterSpec& filter, const Timeline& timeline, const Readout& readout);
 
-  /// Allocates nothing once every job has been run.
+  /// Allocates nothing once every job has been run. ContractError if a recording has other columns
+  /// than the timeline intervals.
   void run(std::span<IteratedJob> jobs);
   /// Whether some stretch is seen through polynomials.
   bool compressed() const { return stretches_ != nullptr; }

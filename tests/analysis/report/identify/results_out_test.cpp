@@ -4,7 +4,11 @@
 
 #include <sstream>
 
+#include "analysis/report/identify/report.hpp"
+#include "core/base/sha256.hpp"
+#include "core/recording/hdf5_handle.hpp"
 #include "tests/analysis/report/identify/identification_fixture.hpp"
+#include "tests/support/program.hpp"
 
 namespace drift::results_out_test {
 namespace {
@@ -99,6 +103,40 @@ TEST(ResultTables, ResidualsHaveARowForEverySample) {
   EXPECT_EQ(rows[1][10], "") << "not measured";
   EXPECT_EQ(rows[1].end()[-2], "6");
   EXPECT_EQ(rows[1].back(), "1") << "the only recording";
+}
+
+/// A text that stands beside an object of a file.
+std::string attribute(const std::string& path, const char* object, const char* name) {
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle found(H5Aopen_by_name(file.get(), object, name, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  if (found.get() < 0) return "there is none";
+  const Hdf5Handle type(H5Aget_type(found.get()), H5Tclose);
+  std::string text(H5Tget_size(type.get()), '\0');
+  EXPECT_GE(H5Aread(found.get(), type.get(), text.data()), 0);
+  return text.c_str();
+}
+
+TEST(IdentificationArrays, SayFromWhatTheyWereMadeAndWhatChiSquareHolds) {
+  mc::Study study = test::study();
+  study.text = "schema = 1\n# text\n";
+  const identification::Identification id = identification_of(study);
+  report::Report said = report::identification_report(study, id);
+  said.provenance.recordings = {{"a.csv", "12ab"}, {"b.csv", "34cd"}};
+  const test::ScratchFolder scratch;
+  report::write_identification(said, id, scratch.file("out"));
+  const std::string path = scratch.file("out/identification.nc");
+  EXPECT_EQ(attribute(path, "/", "study"), study.text);
+  EXPECT_EQ(attribute(path, "/", "study_sha256"), sha256_hex(study.text));
+  EXPECT_EQ(attribute(path, "/", "recordings"), "12ab a.csv\n34cd b.csv");
+  for (const auto& [key, value] : mc::provenance())
+    if (key != "started_utc") {
+      EXPECT_EQ(attribute(path, "/", key.c_str()), value) << key;
+    }
+  EXPECT_EQ(attribute(path, "/", "started_utc").size(), mc::utc_now().size());
+  const std::string chi2 = attribute(path, "/chi2", "long_name");
+  for (const char* part : {"data", "parameters about their priors", "attitudes at each caging"})
+    EXPECT_NE(chi2.find(part), std::string::npos) << chi2;
 }
 
 TEST(ResultTables, AnEstimateWithoutCovarianceLeavesItEmpty) {
