@@ -30,8 +30,8 @@ Reading read_frozen(const std::string& folder, const mc::Manifest& manifest,
     throw_cannot_read(path, std::strerror(errno));  // which says nothing of what it holds
   try {
     mc::Study study = std::filesystem::exists(path, unknown) || unknown
-                          ? mc::read_study(path, asked)
-                          : mc::read_study_text(manifest.study, path, asked);
+                          ? mc::read_study(path, asked, mc::IdleAxes::taken)
+                          : mc::read_study_text(manifest.study, path, asked, mc::IdleAxes::taken);
     mc::StudyIdentity identity = mc::identity_of(study);
     identity.block_size = manifest.identity.block_size;
     if (identity.hash() == manifest.hash) return {std::move(study), {}};

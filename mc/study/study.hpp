@@ -72,12 +72,17 @@ struct Study {
   std::vector<Resolved> resolved;
 };
 
+/// Whether lines of [sweep] that change nothing are mistakes: results that were made with one, by
+/// an earlier version, stay what they are.
+enum class IdleAxes { refused, taken };
+
 /// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
 /// is wrong, what was expected, and the nearest valid key where one was meant.
-Study read_study(const std::string& path, const Overrides& overrides = {});
+Study read_study(const std::string& path, const Overrides& overrides = {},
+                 IdleAxes idle = IdleAxes::refused);
 /// The same of a text that stands elsewhere; `path` is what errors name.
 Study read_study_text(std::string_view text, const std::string& path,
-                      const Overrides& overrides = {});
+                      const Overrides& overrides = {}, IdleAxes idle = IdleAxes::refused);
 
 /// Reads a study from a tree without trying its sweep; `text` is left empty. The same errors.
 Study read_study_tree(const config::Node& root, const std::string& path);

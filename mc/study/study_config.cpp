@@ -234,16 +234,17 @@ std::vector<config::DeclaredKey> declared_keys(const Node& root) {
   return report.declared();
 }
 
-Study read_study(const std::string& path, const Overrides& overrides) {
-  return read_study_text(config::load_text(path), path, overrides);
+Study read_study(const std::string& path, const Overrides& overrides, IdleAxes idle) {
+  return read_study_text(config::load_text(path), path, overrides, idle);
 }
 
-Study read_study_text(std::string_view text, const std::string& path, const Overrides& overrides) {
+Study read_study_text(std::string_view text, const std::string& path, const Overrides& overrides,
+                      IdleAxes idle) {
   const Node root = tree_of(text, path, overrides);
   Study study = read_study_tree(root, path);
   study.overrides = overrides;
   try_sweep(root, study);
-  refuse_idle_axes(root, study);
+  if (idle == IdleAxes::refused) refuse_idle_axes(root, study);
   study.text = config::to_document(root);
   return study;
 }

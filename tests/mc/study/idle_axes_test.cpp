@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mc/study/run_inputs.hpp"
+#include "mc/study/sweep.hpp"
 #include "tests/mc/small_study.hpp"
 #include "tests/mc/study/listed_study.hpp"
 #include "tests/mc/study/study_file.hpp"
@@ -98,6 +99,13 @@ TEST(IdleAxes, OfAStudyWithoutRunsAreNotLookedFor) {
   std::string recorded = listed_study;
   recorded.erase(recorded.find("[truth]"), recorded.find("[[filter]]") - recorded.find("[truth]"));
   EXPECT_TRUE(swept("\"plan.dwell\" = [\"10 min\", \"20 min\"]\n", {}, recorded).empty());
+}
+
+TEST(IdleAxes, OfResultsThatAreThereAreTaken) {
+  const std::string text = listed_study + "[sweep]\n" + etas;
+  EXPECT_THROW(mc::read_study_text(text, "study.toml"), InputError);
+  const mc::Study study = mc::read_study_text(text, "study.toml", {}, mc::IdleAxes::taken);
+  EXPECT_EQ(mc::study_points(study).size(), 2u);
 }
 
 TEST(RunInputs, AreEqualWhereTheSameIsSaidInOtherWords) {
