@@ -187,6 +187,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   study.recording = read_recording_format(top.section("recording"), plan.kind, positions);
   study.environment = read_environment(top.section("environment"));
   read_terms_into_library(top, plan.kind);
+  study.own_terms = std::make_shared<const OwnTermSet>(own_terms());
   study.recording.of_terms = own_terms().covariates;
   const Node* sweep = top.take("sweep");
   // A blind study has truths of several couplings too.
@@ -215,8 +216,10 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
 
 Study read_study_tree(const Node& root, const std::string& path) {
   Report report(path);
+  KeptOwnTerms kept;
   Study study = read_tree(root, path, report);
   report.throw_if_wrong();
+  kept.forget();
   for (const auto& value : report.resolved())
     study.resolved.push_back({value.key, value.text, value.origin});
   return study;
@@ -239,9 +242,11 @@ Study read_study(const std::string& path, const Overrides& overrides) {
 
 Study read_study_text(std::string_view text, const std::string& path, const Overrides& overrides) {
   const Node root = tree_of(text, path, overrides);
+  KeptOwnTerms kept;
   Study study = read_study_tree(root, path);
   study.overrides = overrides;
   try_sweep(root, study);
+  kept.forget();
   study.text = config::to_document(root);
   return study;
 }
