@@ -15,6 +15,7 @@
 #include "core/base/shuffle.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/stats/chi_square_band.hpp"
+#include "mc/study/own_terms_check.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
 
 namespace drift::blind {
@@ -203,6 +204,8 @@ Certificate certify(const FilterSpec& nominal, const World& world, const Measure
 }  // namespace
 
 MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan) {
+  mc::require_own_terms(study);
+  mc::require_own_terms(nominal);
   const auto started = std::chrono::steady_clock::now();
   const FilterSpec& filter = nominal.filters.front();
   MadeTrial made;

@@ -19,7 +19,7 @@ struct MadeTrial {
 /// CVODE (with the servo's 12 states where asked for); parameters and attitudes are drawn from
 /// [truth]; the effect is as strong as its wanted size asks, and another one is taken where that
 /// would be implausible. A pure function of (study, plan). InputError (config) if nothing can be
-/// hidden as asked.
+/// hidden as asked, or as mc::require_own_terms() of either study.
 MadeTrial make_trial(const mc::Study& study, const mc::Study& nominal, const TrialPlan& plan);
 
 }  // namespace drift::blind

@@ -9,6 +9,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/file_text.hpp"
+#include "core/physics/own/own_terms.hpp"
 #include "mc/store/same_study.hpp"
 #include "mc/store/study_identity.hpp"
 
@@ -61,6 +62,7 @@ FrozenStudy frozen_study(const std::string& folder, const mc::StudyReader& reade
 }
 
 bool study_file_is_whole(const std::string& folder, const mc::Manifest& manifest) {
+  const KeptOwnTerms kept;  // those of the study that is executed, whatever the file says
   return read_frozen(folder, manifest, {}).study.has_value();
 }
 

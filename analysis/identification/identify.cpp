@@ -22,6 +22,7 @@
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/plan_rows.hpp"
 #include "core/sim/judged_truth.hpp"
+#include "mc/study/own_terms_check.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
@@ -207,6 +208,7 @@ const FilterRun& Identification::counted(const FilterSummary& filter) const {
 
 Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
                                   const Progress& progress) {
+  mc::require_own_terms(study);
   if (!study.has_truth)
     throw InputError(
         ExitCode::config,

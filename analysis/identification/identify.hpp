@@ -108,13 +108,13 @@ using Progress = std::function<void(std::size_t, std::size_t)>;
 
 /// Simulates one recording from [truth] (run number `run`) and estimates. With a compensated loop
 /// that is fed back, every filter and start watches a test of its own, driven by its estimates.
-/// InputError (config) if the study has no filter or no truth. Failed integration: InputError
-/// (self_check).
+/// InputError (config) if the study has no filter or no truth, or as mc::require_own_terms().
+/// Failed integration: InputError (self_check).
 Identification identify_simulated(const mc::Study& study, std::uint64_t run, int threads,
                                   const Progress& progress = {});
 
 /// Estimates from recordings, made ready as for a diagnosis (prepare()); several are taken as one
-/// test, each starting with a caging.
+/// test, each starting with a caging. InputError (recording, config) as prepare() has it.
 Identification identify_recordings(const mc::Study& study, const std::vector<Recording>& recordings,
                                    int threads, const Progress& progress = {});
 

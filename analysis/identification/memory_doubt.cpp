@@ -3,6 +3,7 @@
 #include "analysis/inference/thresholds.hpp"
 #include "core/plan/environment.hpp"
 #include "core/sim/simulate.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::identification {
 namespace {
@@ -21,6 +22,7 @@ std::vector<MemoryLeftOut> memory_doubt(const FilterSpec& filter, const BatchRes
 }
 
 std::vector<MemoryLeftOut> memory_doubt(const mc::Study& study, std::uint64_t run) {
+  mc::require_own_terms(study);
   DriftModel model = study.truth.model();
   if (!study.has_truth || study.kind != RecordingKind::platform) return {};
   if (!TermLibrary::remember(model.terms)) return {};

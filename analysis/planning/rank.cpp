@@ -11,6 +11,7 @@
 #include "core/base/check.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/truth.hpp"
+#include "mc/study/own_terms_check.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/campaign.hpp"
 
@@ -148,6 +149,7 @@ void rank_model(const mc::Study& study, const RankOptions& options, ModelRanking
 }
 
 void require_ranked(const mc::Study& study) {
+  mc::require_own_terms(study);
   if (study.kind != RecordingKind::platform)
     throw InputError(ExitCode::config,
                      fmt::format("{}: a strapdown recording has no plan to rank (expected kind = "

@@ -90,7 +90,8 @@ std::optional<Improvement> improve_study(const mc::Study& study, const RankOptio
 
 /// Ranks every filter of a study on its plan; no sampling. A magnetic field that nobody declares is
 /// that of a dipole. InputError (config) for a strapdown study or one without filter, or where a
-/// filter follows what a recording alone has; (usage) for an unknown criterion.
+/// filter follows what a recording alone has, or as mc::require_own_terms(); (usage) for an unknown
+/// criterion.
 PlanRanking rank_plan(const mc::Study& study, const RankOptions& options,
                       const ImproveProgress& progress = {});
 

@@ -33,6 +33,7 @@
 #include "core/recording/rows/join_rows.hpp"
 #include "core/recording/rows/reduce.hpp"
 #include "core/sim/measurements.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::preparation {
 namespace {
@@ -213,6 +214,7 @@ void take_uneven_rows(const Work& work) {
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
                  std::size_t most_rows, Following following) {
+  mc::require_own_terms(study);
   require_recordings(recordings);
   Prepared p{study, recordings, {}};
   std::vector<std::string> wrong;

@@ -24,9 +24,10 @@ struct Prepared {
 /// Looks recordings over before parameters are estimated from them or they are diagnosed:
 /// `identify` and `diagnose` accept the same files.
 ///
-/// Refused first (InputError, recording): none at all, and those that were made otherwise than
-/// files are read (require_recordings()). Refused then, all mistakes at once: positions that the
-/// plan does not have or whose attitude is not the plan's, times in another unit
+/// Refused first: a study whose own terms are in the library no more (InputError, config:
+/// require_own_terms()); none at all, and those that were made otherwise than files are read
+/// (InputError, recording: require_recordings()). Refused then, all mistakes at once: positions
+/// that the plan does not have or whose attitude is not the plan's, times in another unit
 /// (other_unit_of_time()), gaps in which the command changed and the gimbals do not tell when
 /// (with_begins()), nothing measured, without recorded commands a platform that moves by another
 /// law than the plan's (check_plan()); evenly spaced rows farther apart than the plan's samples or

@@ -5,6 +5,7 @@
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
 #include "core/sim/own_term_steps.hpp"
+#include "mc/study/own_terms_check.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
 
 namespace drift::preparation {
@@ -88,6 +89,7 @@ void require_recordings(const std::vector<Recording>& recordings) {
 }
 
 RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>& recordings) {
+  mc::require_own_terms(study);
   require_recordings(recordings);
   std::vector<Timeline> timelines;
   std::vector<Measurements> parts;
@@ -118,6 +120,7 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
 }
 
 Timeline planned_test(const mc::Study& study, const TestPlan& plan, const Timeline& recorded) {
+  mc::require_own_terms(study);
   Timeline timeline = lay_out(plan, study.site);
   set_declared_vectors(timeline, study.environment);
   for (const CovariateSpec& c : known_covariates) {

@@ -7,6 +7,7 @@
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/sensed_diagnosis.hpp"
 #include "core/base/check.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -90,6 +91,7 @@ void take_latitude(Diagnosis& d, const CaseIdentification& id) {
 
 Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
                         const diagnosis::DiagnoseOptions& options) {
+  mc::require_own_terms(study);
   DRIFT_DEMAND(!study.filters.empty() && id.fits.size() == study.filters.size());
   const FilterSpec& nominal = study.filters.front();
   diagnosis::DiagnoseOptions as_asked = options;

@@ -10,6 +10,7 @@
 #include "analysis/strapdown/walking_drift.hpp"
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -34,6 +35,7 @@ void check(const mc::Study& study) {
 }  // namespace
 
 CaseIdentification identify_case(const mc::Study& study, CaseStudy of) {
+  mc::require_own_terms(study);
   check(study);
   CaseIdentification out;
   out.study = std::move(of);

@@ -30,8 +30,8 @@ struct CaseIdentification {
 
 /// Estimates every filter by fit_batch, says what of its parameters the recording knows
 /// (findings_of), and how well it predicts what was held out (scores_of). InputError (config)
-/// without a filter, or with one that is neither eq. (5) nor eq. (6): gyros on a case have no
-/// servo.
+/// without a filter, with one that is neither eq. (5) nor eq. (6), since gyros on a case have no
+/// servo, or as mc::require_own_terms().
 CaseIdentification identify_case(const mc::Study& study, CaseStudy of);
 /// Of a recording, with what its gyros say of the latitude (latitude_doubt()).
 CaseIdentification identify_case(const mc::Study& study, const Recording& recording);

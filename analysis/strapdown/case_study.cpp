@@ -20,6 +20,7 @@
 #include "core/recording/rows/check_time.hpp"
 #include "core/recording/rows/parabola.hpp"
 #include "core/recording/rows/smooth_reading.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::strapdown {
 namespace {
@@ -194,6 +195,7 @@ void leave_out_not_measured(Recording& recording, std::vector<std::string>& rema
 }
 
 CaseStudy case_study(const mc::Study& study, const Recording& given) {
+  mc::require_own_terms(study);
   check_recording(given, RecordingKind::strapdown);
   CaseStudy out;
   Recording recording = given;

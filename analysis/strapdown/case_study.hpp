@@ -40,8 +40,8 @@ void leave_out_not_measured(Recording& recording, std::vector<std::string>& rema
 /// a time, levelled by accelerometers that are calibrated on gravity where there are dwells enough.
 /// What was not measured, or by a sensor that is stuck or at the end of its range, is left out and
 /// remarked.
-/// InputError (recording) if the recording is not as files are read (check_recording()), the
-/// channels are not there or the unit never rests.
+/// InputError: recording if the recording is not as files are read (check_recording()), the
+/// channels are not there or the unit never rests; config as mc::require_own_terms().
 CaseStudy case_study(const mc::Study& study, const Recording& recording);
 
 /// A filter of the study as it is a platform's: what the gyros read is its command. Eqs. (5) and

@@ -73,11 +73,12 @@ struct StudyOutcome {
 /// Executes what is missing of a study and stores it in a folder that claim_folder() accepted.
 ///
 /// Runs go to the threads one by one, across blocks and points; a block is stored when its last run
-/// is done. A failed run is a row and a cause. SIGINT and SIGTERM let the runs at work finish,
-/// `max_wall` begins none that would not end in time (but one of each session); runs of incomplete
-/// blocks are kept, and the study is resumed by the same call. Results do not depend on threads,
-/// workers, ranks or interruptions. InputError: io if the disk is full (resumable), self_check if
-/// two workers came to different results.
+/// is done. A failed run is a row and a cause. SIGINT and SIGTERM let the runs at work finish (a
+/// second one ends the process at once: StopSignals), `max_wall` begins none that would not end in
+/// time (but one of each session); runs of incomplete blocks are kept, and the study is resumed by
+/// the same call. Results do not depend on threads, workers, ranks or interruptions. InputError: io
+/// if the disk is full (resumable), self_check if two workers came to different results, config if
+/// the own terms of another study have been read since (require_own_terms()).
 StudyOutcome run_study(const StudyWork& work, const EngineOptions& options,
                        const std::string& folder, const Manifest& manifest, Ranks& ranks,
                        const ProgressSink& progress = {});

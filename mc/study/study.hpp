@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,10 @@
 #include "core/recording/recording_format.hpp"
 #include "mc/study/blind_spec.hpp"
 #include "mc/study/monte_carlo.hpp"
+
+namespace drift {
+struct OwnTermSet;
+}
 
 namespace drift::mc {
 
@@ -70,6 +75,9 @@ struct Study {
   BlindSpec blind;
   bool has_blind = false;  ///< [blind] is in the file
   std::vector<Resolved> resolved;
+  /// Its [[term]], as they were put into the library when it was read; null: made by hand, with
+  /// those that are there.
+  std::shared_ptr<const OwnTermSet> own_terms = {};
 };
 
 /// Whether lines of [sweep] that change nothing are mistakes: results that were made with one, by
@@ -78,6 +86,11 @@ enum class IdleAxes { refused, taken };
 
 /// Reads a study file. InputError (config) lists every mistake in it, each with file:line:col, what
 /// is wrong, what was expected, and the nearest valid key where one was meant.
+///
+/// A process holds one set of own terms, [[term]]: those of a study take the places of those of the
+/// study read before, with which nothing is computed from then on (require_own_terms()): it is read
+/// again, or the others are read while its terms are kept (KeptOwnTerms). No study is read while
+/// another thread computes. Where an error is thrown the terms are as they were.
 Study read_study(const std::string& path, const Overrides& overrides = {},
                  IdleAxes idle = IdleAxes::refused);
 /// The same of a text that stands elsewhere; `path` is what errors name.

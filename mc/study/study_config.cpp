@@ -188,6 +188,7 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
   study.recording = read_recording_format(top.section("recording"), plan.kind, positions);
   study.environment = read_environment(top.section("environment"));
   read_terms_into_library(top, plan.kind);
+  study.own_terms = std::make_shared<const OwnTermSet>(own_terms());
   study.recording.of_terms = own_terms().covariates;
   top.take("sweep");
   // A blind study has truths of several couplings too.
@@ -216,8 +217,10 @@ Study read_tree(const Node& root, const std::string& path, Report& report) {
 
 Study read_study_tree(const Node& root, const std::string& path) {
   Report report(path);
+  KeptOwnTerms kept;
   Study study = read_tree(root, path, report);
   report.throw_if_wrong();
+  kept.forget();
   for (const auto& value : report.resolved())
     study.resolved.push_back({value.key, value.text, value.origin});
   return study;
@@ -241,10 +244,12 @@ Study read_study(const std::string& path, const Overrides& overrides, IdleAxes i
 Study read_study_text(std::string_view text, const std::string& path, const Overrides& overrides,
                       IdleAxes idle) {
   const Node root = tree_of(text, path, overrides);
+  KeptOwnTerms kept;
   Study study = read_study_tree(root, path);
   study.overrides = overrides;
   try_sweep(root, study);
   if (idle == IdleAxes::refused) refuse_idle_axes(root, study);
+  kept.forget();
   study.text = config::to_document(root);
   return study;
 }

@@ -7,6 +7,7 @@
 #include "core/base/check.hpp"
 #include "core/base/fnv.hpp"
 #include "core/config/load.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::mc {
 namespace {
@@ -55,6 +56,7 @@ StudyPoint make_point(const Node& base, const Study& study,
 }  // namespace
 
 std::vector<StudyPoint> study_points(const Study& study) {
+  require_own_terms(study);
   if (study.sweep.empty()) {
     StudyPoint point{hash_of(study.text), "", {}, study};
     return {std::move(point)};

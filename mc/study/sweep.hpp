@@ -20,7 +20,7 @@ struct StudyPoint {
 ///
 /// All points have the study's seed and run numbers, so run k draws the same numbers at every point
 /// (common random numbers): differences between points are not blurred by luck.
-/// InputError (config) if a combination makes no study, naming it.
+/// InputError (config) if a combination makes no study, naming it, or as require_own_terms().
 std::vector<StudyPoint> study_points(const Study& study);
 
 }  // namespace drift::mc

@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "core/estimate/starts.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::mc {
 
 StudyColumns::StudyColumns(const Study& study) {
+  require_own_terms(study);
   ParamMask wanted = study.truth.active;
   for (const FilterSpec& spec : study.filters) {
     Filter filter{spec.name, spec.coupling, make_layout(spec), start_count(spec), 0, {}};

@@ -46,6 +46,7 @@ struct StudyColumns {
   std::vector<Filter> filters;
   std::size_t count = 0;  ///< columns of a row
 
+  /// InputError (config) as require_own_terms().
   explicit StudyColumns(const Study& study);
 
   /// Names: "truth/eta_x", "corrected/0/nis", "corrected/0/estimate/eta_x",

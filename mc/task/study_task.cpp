@@ -6,6 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/plan/environment.hpp"
+#include "mc/study/own_terms_check.hpp"
 #include "mc/study/own_terms_on_plan.hpp"
 #include "mc/study/simulated_surroundings.hpp"
 #include "mc/task/study_worker.hpp"
@@ -15,6 +16,7 @@ namespace drift::mc {
 namespace {
 
 void check(const Study& study) {
+  require_own_terms(study);
   const auto refuse = [&](const char* what) {
     throw InputError(ExitCode::config, fmt::format("{}: {}", study.path, what));
   };
@@ -68,6 +70,7 @@ bool StudyTask::goes_in_lanes(const FilterSpec& filter) const {
 }
 
 std::unique_ptr<RunWorker> StudyTask::worker() const {
+  require_own_terms(study_);
   return std::make_unique<StudyWorker>(*this);
 }
 

@@ -12,10 +12,12 @@ class StudyTask final : public RunTask {
  public:
   /// InputError (config) if there is nothing to simulate or to estimate with, if the plan is none
   /// of a platform, if the loop is fed back from a filter (then every filter makes its own data),
-  /// or if the estimator cannot model what a filter claims (unmodelled.hpp).
+  /// if the estimator cannot model what a filter claims (unmodelled.hpp), or as
+  /// require_own_terms().
   explicit StudyTask(Study study);
 
   const std::vector<Column>& columns() const override { return named_; }
+  /// InputError (config) as require_own_terms(): what was read since is another study's.
   std::unique_ptr<RunWorker> worker() const override;
   std::size_t together() const override;
 

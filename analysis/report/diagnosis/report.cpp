@@ -14,6 +14,7 @@
 #include "analysis/report/page/planned_study.hpp"
 #include "core/base/results/folder.hpp"
 #include "core/physics/parameters_config.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::report {
 namespace {
@@ -147,6 +148,7 @@ std::string to_text(const Diagnosis& d) {
 }
 
 Report diagnosis_report(const mc::Study& study, const Diagnosis& d, const DiagnosisSource& source) {
+  mc::require_own_terms(study);
   Report report{.command = "diagnose"};
   report.title = study.title.empty() ? "Diagnosis" : study.title;
   report.subtitle = fmt::format("{} {}", verdict_word(d), fmt::join(source.recordings, ", "));

@@ -21,7 +21,7 @@ struct DiagnosisSource {
 /// study.toml, patched.toml (where a cause is in the model; of an ambiguous verdict the most
 /// probable one, said in a comment on top), advised.toml (the study with the positions of the
 /// first advice) and corrected.toml (the study with the headings of the recording, where they are
-/// others).
+/// others). InputError (config) as mc::require_own_terms().
 Report diagnosis_report(const mc::Study& study, const diagnosis::Diagnosis& diagnosis,
                         const DiagnosisSource& source);
 

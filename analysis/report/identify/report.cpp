@@ -13,6 +13,7 @@
 #include "analysis/report/page/study_section.hpp"
 #include "core/base/sha256.hpp"
 #include "core/recording/recording_output.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::report {
 namespace {
@@ -36,6 +37,7 @@ mc::Facts facts_of(const Report& report) {
 }  // namespace
 
 Report identification_report(const mc::Study& study, const identification::Identification& id) {
+  mc::require_own_terms(study);
   Report report{.command = "identify"};
   report.title = study.title.empty() ? "Identification" : study.title;
   report.subtitle = id.simulated

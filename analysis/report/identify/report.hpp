@@ -7,7 +7,8 @@ namespace drift::report {
 
 /// All an identification has to say: tables, pictures, identification.json (schema 1) and
 /// study.toml, the study with the overrides of the command line; corrected.toml, the study with the
-/// headings of the recording, where they are others.
+/// headings of the recording, where they are others. InputError (config) as
+/// mc::require_own_terms().
 Report identification_report(const mc::Study& study, const identification::Identification& id);
 
 /// Writes the report into a folder, what was estimated as tables and as netCDF (results_out.hpp),

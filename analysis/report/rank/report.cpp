@@ -7,6 +7,7 @@
 #include "analysis/report/page/study_section.hpp"
 #include "analysis/report/rank/sections.hpp"
 #include "core/base/results/new_results.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::report {
 namespace {
@@ -92,6 +93,7 @@ std::vector<std::string> headlines(const mc::Study& study, const planning::PlanR
 
 Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
                    const std::string& folder) {
+  mc::require_own_terms(study);
   Report report{.command = "rank"};
   report.title = study.title.empty() ? "Observability ranking" : study.title;
   report.subtitle = plan_line(study, rank);

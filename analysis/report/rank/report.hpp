@@ -11,6 +11,7 @@ namespace drift::report {
 /// All a ranking has to say: tables, pictures, rank.json and ranking.csv (values in the units of
 /// study files), study.toml and, with an improvement, proposed_positions.toml and improved.toml,
 /// the study with these positions. `folder`: where all that is to be written; empty: nowhere.
+/// InputError (config) as mc::require_own_terms().
 Report rank_report(const mc::Study& study, const planning::PlanRanking& rank,
                    const std::string& folder = "");
 

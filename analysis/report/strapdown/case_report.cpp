@@ -15,6 +15,7 @@
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/words.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::report {
 
@@ -273,6 +274,7 @@ Section case_noise(const CaseIdentification& id) {
 }
 
 Report case_report(const mc::Study& study, const CaseIdentification& id) {
+  mc::require_own_terms(study);
   Report report{.command = "identify"};
   report.title = study.title.empty() ? "Strapdown recording" : study.title;
   report.subtitle = fmt::format("Strapdown recording {}", id.study.source);

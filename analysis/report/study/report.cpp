@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/report/study/sections.hpp"
+#include "mc/study/own_terms_check.hpp"
 
 namespace drift::report {
 
@@ -17,6 +18,7 @@ Section provenance(const StudyResults& results) {
 }
 
 Report study_report(const StudyResults& results) {
+  mc::require_own_terms(results.study);
   Report report{.command = "run"};
   report.title = results.study.title.empty() ? "Monte Carlo study" : results.study.title;
   const std::size_t points = results.points.size();

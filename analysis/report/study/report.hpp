@@ -5,7 +5,7 @@
 namespace drift::report {
 
 /// All a Monte Carlo study has to say: tables, pictures and summary.json, all its statistics with
-/// numbers in the unit named beside them.
+/// numbers in the unit named beside them. InputError (config) as mc::require_own_terms().
 Report study_report(const StudyResults& results);
 
 /// What `run` prints has lines of this length.

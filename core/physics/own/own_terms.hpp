@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/physics/own/own_term.hpp"
 
 namespace drift {
@@ -17,12 +19,17 @@ class KeptOwnTerms {
  public:
   KeptOwnTerms() : before_(own_terms()) {}
   // NOLINTNEXTLINE(bugprone-exception-escape): of terms that were checked when they were set
-  ~KeptOwnTerms() { set_own_terms(std::move(before_)); }
+  ~KeptOwnTerms() {
+    if (before_) set_own_terms(std::move(*before_));
+  }
   KeptOwnTerms(const KeptOwnTerms&) = delete;
   KeptOwnTerms& operator=(const KeptOwnTerms&) = delete;
 
+  /// Leaves those that are there now.
+  void forget() { before_.reset(); }
+
  private:
-  OwnTermSet before_;
+  std::optional<OwnTermSet> before_;
 };
 
 }  // namespace drift

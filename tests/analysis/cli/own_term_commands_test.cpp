@@ -55,6 +55,21 @@ TEST(OwnTermCommands, RunsAreTheSameBitsForAnyNumberOfThreadsAndResumed) {
   EXPECT_TRUE(named);
 }
 
+/// It is looked at before it is written anew: its terms are not those of the runs.
+TEST(OwnTermCommands, AStudyFileThatWasChangedInTheFolderChangesNoRun) {
+  const ScratchFolder folder;
+  const std::string sweep = "[sweep]\n\"plan.sample\" = [\"2 min\", \"4 min\"]\n",
+                    config = folder.write("s.toml", study(all, rumble) + sweep);
+  ASSERT_EQ(driftscope("run " + config + " --threads 1 -o " + folder.file("one")).code, 0);
+  ASSERT_EQ(driftscope("run " + config + " --runs 7 -o " + folder.file("two")).code, 0);
+  folder.write("two/study.toml", study(all, "A*cos(2*pi*t/P)") + sweep);
+  EXPECT_EQ(driftscope("run " + config + " --dry-run -o " + folder.file("two")).code, 0);
+  const Answer a = driftscope("run " + config + " -o " + folder.file("two"));
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.err.find("study.toml was not that of the study"), std::string::npos) << a.err;
+  EXPECT_EQ(digest_of(folder, "two"), digest_of(folder, "one"));
+}
+
 TEST(OwnTermCommands, WhatIsHiddenIsFoundAndThePatchedStudyHasIt) {
   const ScratchFolder folder;
   const std::string config = folder.write("s.toml", study(without, rumble)),
