@@ -10,6 +10,7 @@
 
 #include "core/physics/earth.hpp"
 #include "core/physics/model_spec.hpp"
+#include "core/physics/own/own_term.hpp"
 #include "core/plan/environment.hpp"
 #include "core/plan/readout.hpp"
 #include "core/plan/test_plan.hpp"
@@ -17,10 +18,6 @@
 #include "core/recording/recording_format.hpp"
 #include "mc/study/blind_spec.hpp"
 #include "mc/study/monte_carlo.hpp"
-
-namespace drift {
-struct OwnTermSet;
-}
 
 namespace drift::mc {
 
