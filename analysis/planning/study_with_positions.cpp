@@ -21,10 +21,11 @@ constexpr std::array<std::string_view, 6> of_positions = {"preset", "position", 
                                                           "sample", "mode",     "entry"};
 
 bool sets_positions(const Member& line) {
-  Node alone;
-  alone.members.push_back(line);
+  Node sweep, alone;
+  sweep.members.push_back(line);
+  alone.members.push_back({"sweep", {}, std::move(sweep)});
   return std::ranges::any_of(of_positions, [&](std::string_view key) {
-    return mc::sweeps(&alone, fmt::format("plan.{}", key));
+    return mc::sweeps(alone, fmt::format("plan.{}", key));
   });
 }
 
