@@ -1,12 +1,25 @@
 #include "analysis/observability/drivers.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/physics/stochastic.hpp"
 
 namespace drift::observability {
 namespace {
 
 VecX sigmas(const LinearisedPlan& plan, double attitude_weight = 1.0) {
   return posterior_of(plan, attitude_weight).sigma;
+}
+
+/// With half of all that drives the platform at random.
+RankedModel half_driven(RankedModel model) {
+  model.spec.noise.angle_random_walk *= 0.5;
+  model.spec.noise.drift_random_walk *= 0.5;
+  for (const std::size_t size : {TermLibrary::index("q_x"), TermLibrary::index("B_x")})
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      model.nominal[static_cast<Eigen::Index>(size + axis)] *= 0.5;
+  return model;
 }
 
 }  // namespace
@@ -27,6 +40,9 @@ Drivers drivers_of(const LinearisedPlan& plan, const TestPlan& test, const Ranke
   out.accelerometers =
       model.readout.accelerometers ? with_half(&Readout::accelerometer_noise) : same;
   out.gimbals = model.readout.gimbals ? with_half(&Readout::gimbal_noise) : same;
+  out.process_noise = has_process_noise(model.spec)
+                          ? sigmas(linearise(test, half_driven(model))).cwiseQuotient(before)
+                          : same;
   // Half the sigma is four times the information: three units more on one scaled parameter. The
   // inverse of a matrix changed by one column (Sherman and Morrison 1950).
   constexpr double more = 3.0;

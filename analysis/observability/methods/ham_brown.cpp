@@ -28,11 +28,12 @@ VecX ham_brown_of(const Ranked& r) {
 
 VecX ham_brown_score(const Ranking& ranking) {
   const auto n = static_cast<Eigen::Index>(ranking.layout.size());
+  double trace = 0.0;  // of the posterior, of what walks at the beginning
+  for (const EigenDirection& d : ranking.spectrum) trace += 1.0 / (1.0 + d.information);
   VecX score(n);
   for (Eigen::Index k = 0; k < n; ++k)
     score[k] = -static_cast<double>(n) /
-               (1.0 + home_of(ranking, static_cast<std::size_t>(k)).information) /
-               ranking.covariance.trace();
+               (1.0 + home_of(ranking, static_cast<std::size_t>(k)).information) / trace;
   return score;
 }
 

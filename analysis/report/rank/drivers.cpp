@@ -10,7 +10,7 @@ namespace {
 
 /// One thing that could be known twice as well, and how much that takes off a sigma.
 struct Gain {
-  enum class Of { accelerometers, gimbals, attitude, own_prior, other_prior };
+  enum class Of { accelerometers, gimbals, attitude, own_prior, other_prior, process_noise };
   Of of = Of::own_prior;
   std::size_t state = 0;  ///< whose prior
   double part = 0.0;      ///< of the sigma
@@ -26,6 +26,8 @@ std::string driver_in_words(const Gain& gain, const Layout& layout) {
       return "attitude at caging";
     case Gain::Of::own_prior:
       return "its own prior";
+    case Gain::Of::process_noise:
+      return "process noise";
     case Gain::Of::other_prior:
       break;
   }
@@ -37,7 +39,8 @@ std::vector<Gain> gains_of(const observability::Drivers& d, std::size_t k) {
   const auto row = static_cast<Eigen::Index>(k);
   std::vector<Gain> all{{Gain::Of::accelerometers, 0, 1.0 - d.accelerometers[row]},
                         {Gain::Of::gimbals, 0, 1.0 - d.gimbals[row]},
-                        {Gain::Of::attitude, 0, 1.0 - d.attitude[row]}};
+                        {Gain::Of::attitude, 0, 1.0 - d.attitude[row]},
+                        {Gain::Of::process_noise, 0, 1.0 - d.process_noise[row]}};
   for (Eigen::Index j = 0; j < d.priors.cols(); ++j)
     all.push_back({j == row ? Gain::Of::own_prior : Gain::Of::other_prior,
                    static_cast<std::size_t>(j), 1.0 - d.priors(row, j)});
@@ -71,7 +74,7 @@ BarChart tornado(const planning::ModelRanking& m) {
     for (std::size_t g = 0; g < most_drivers; ++g) {
       const Gain& gain = gains[states[i]][g];
       if (gain.part < least) break;
-      constexpr std::size_t colours[] = {0, 2, 3, 6, 1};
+      constexpr std::size_t colours[] = {0, 2, 3, 6, 1, 4};
       chart.bars.push_back({.label = name + driver_in_words(gain, layout),
                             .value = 100.0 * gain.part,
                             .colour = colours[static_cast<std::size_t>(gain.of)],
@@ -110,9 +113,9 @@ Table driver_table(const planning::ModelRanking& m) {
   Table t(fmt::format("What drives the sigma of each parameter, {}", key_of(m.model.spec.coupling)),
           "key=<parameter | accelerometer_noise=accelerometers | gimbal_noise=gimbals | "
           "attitude_at_caging=attitude | own_prior=own prior | other_prior_of=<prior of | "
-          "other_prior=there",
+          "other_prior=there | process_noise=process noise",
           "How much smaller the sigma becomes, in percent, where the noise of the accelerometers, "
-          "of the gimbals, or a prior sigma is halved.");
+          "of the gimbals, the process noise, or a prior sigma is halved.");
   const auto percent_of = [](double part) { return decimals(100.0 * part, 1); };
   for (const std::size_t k : m.ranking.order) {
     const auto row = static_cast<Eigen::Index>(k);
@@ -123,7 +126,8 @@ Table driver_table(const planning::ModelRanking& m) {
            percent_of(1.0 - m.drivers.gimbals[row]), percent_of(1.0 - m.drivers.attitude[row]),
            percent_of(1.0 - m.drivers.priors(row, row)),
            Cell(any ? parameter_key(layout, other->state) : "-"),
-           any ? percent_of(other->part) : Cell("-")});
+           any ? percent_of(other->part) : Cell("-"),
+           percent_of(1.0 - m.drivers.process_noise[row])});
   }
   return t;
 }

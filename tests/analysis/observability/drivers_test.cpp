@@ -49,6 +49,7 @@ TEST(Drivers, OfPriorsAndNoiseAreThoseOfAPlanRankedWithTheHalf) {
   EXPECT_LT((d.attitude - sigmas_of(attitude).cwiseQuotient(before)).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_TRUE((d.accelerometers.array() <= 1.0 + 1e-12).all());
   EXPECT_TRUE((d.gimbals.array() < 1.0).any());
+  EXPECT_TRUE((d.process_noise.array() == 1.0).all()) << "there is none";
 }
 
 TEST(Drivers, TogetherHalveEverySigma) {
@@ -63,6 +64,22 @@ TEST(Drivers, TogetherHalveEverySigma) {
     half.spec.priors[p] = normal(m.spec.priors[p].mean(), 0.5 * m.spec.priors[p].sigma());
   const VecX ratio = sigmas_of(half).cwiseQuotient(sigmas_of(m));
   for (const double r : ratio) EXPECT_NEAR(r, 0.5, 1e-9);
+}
+
+TEST(Drivers, OfProcessNoiseAreThoseOfItsTermsToo) {
+  RankedModel walking = model();
+  walking.spec.active |= params_named("drift_random_walk");
+  for (const char* key : {"q_x", "q_y", "q_z"})
+    walking.spec.priors[param(key)] = fixed(0.1 * deg_per_h / 60.0);
+  walking = ranked_model(walking.spec, nullptr, walking.site, walking.readout);
+  RankedModel half = walking;
+  for (const char* key : {"q_x", "q_y", "q_z"})
+    half.spec.priors[param(key)] = fixed(0.05 * deg_per_h / 60.0);
+  half = ranked_model(half.spec, nullptr, half.site, half.readout);
+  const Drivers d = drivers_of(linearise(plan(), walking), plan(), walking);
+  const VecX ratio = sigmas_of(half).cwiseQuotient(sigmas_of(walking));
+  EXPECT_LT((d.process_noise - ratio).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(ratio.minCoeff(), 0.9);
 }
 
 TEST(Drivers, TableSaysTheStrongestOtherPrior) {

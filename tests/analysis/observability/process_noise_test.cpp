@@ -160,7 +160,7 @@ TEST(ProcessNoise, ThatIsHardlyThereChangesNothing) {
   const Drivers e = drivers_of(a, some_plan(), still), f = drivers_of(b, some_plan(), moved);
   EXPECT_LT((e.priors - f.priors).cwiseAbs().maxCoeff(), 1e-3);
   for (const VecX Drivers::*part :
-       {&Drivers::accelerometers, &Drivers::gimbals, &Drivers::attitude})
+       {&Drivers::accelerometers, &Drivers::gimbals, &Drivers::attitude, &Drivers::process_noise})
     EXPECT_LT((e.*part - f.*part).cwiseAbs().maxCoeff(), 1e-3);
 }
 
@@ -199,6 +199,10 @@ TEST(ProcessNoise, DriversAreThoseOfAPlanRankedWithTheHalf) {
               1e-6)
         << j;
   }
+  const RankedModel half = with_noise(m, {.angle_random_walk = 0.5 * walks().angle_random_walk,
+                                          .drift_random_walk = 0.5 * walks().drift_random_walk});
+  EXPECT_LT((d.process_noise - sigmas_of(half).cwiseQuotient(before)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(d.process_noise.minCoeff(), 0.8);
   RankedModel attitude = m;
   attitude.spec.initial_attitude *= 0.5;
   EXPECT_LT((d.attitude - sigmas_of(attitude).cwiseQuotient(before)).cwiseAbs().maxCoeff(), 1e-9);
