@@ -170,10 +170,10 @@ RecordedPlan recorded_plan(const Recording& r) {
     const auto there = seen_at(r, shows, end, spacing.usual[shows]);
     const bool rough = p.torqued || (force && angles && !show_one_up(*force, *angles));
     if (!p.torqued) drifted.setIdentity();
-    const auto in_case = [&](double direction) -> std::optional<ShownAttitude> {
+    const auto in_case = [&](double direction) -> std::optional<planning::ShownAttitude> {
       if (!there) return std::nullopt;
-      return shown_attitude(drifted.transpose() * case_attitude(direction) * there->R_lp,
-                            rough ? largest_mismatch : there->room);
+      return planning::shown_attitude(drifted.transpose() * case_attitude(direction) * there->R_lp,
+                                      rough ? largest_mismatch : there->room);
     };
     const auto shown = in_case(p.heading.value_or(0.0));
     if (shown)
@@ -182,7 +182,7 @@ RecordedPlan recorded_plan(const Recording& r) {
     plan.north = plan.north && shown;
     const auto turned = in_case(45.0 * detail::deg);
     if (!heading && shown && turned->plainer_than(*shown)) p.turned = *turned;
-    p.attitude = shown ? *shown : ShownAttitude{axes_of(mean_force(r, dwell, end))};
+    p.attitude = shown ? *shown : planning::ShownAttitude{axes_of(mean_force(r, dwell, end))};
     if (force && angles) {
       seen.push_back({plan.positions.size() + 1, *force, *angles});
       ups.push_back(axes_of(*force));

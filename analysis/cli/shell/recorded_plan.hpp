@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/cli/shell/shown_attitude.hpp"
+#include "analysis/planning/shown_attitude.hpp"
 #include "core/recording/recording.hpp"
 
 namespace drift::cli {
@@ -12,13 +12,13 @@ namespace drift::cli {
 /// What a recording says of the plan it was made on.
 struct RecordedPlan {
   struct Position {
-    double length = 0.0;              ///< of the dwell [s], a whole number of its samples
-    ShownAttitude attitude{};         ///< at its beginning
-    bool torqued = false;             ///< slewed to, as the phases say
-    bool level = false;               ///< Earth rate is commanded in the dwell
-    std::optional<double> heading{};  ///< of the case [rad], where it is recorded
-    ShownAttitude turned{};           ///< if the case was at 45 deg; without axes: less likely
-    std::optional<double> sample{};   ///< of its own [s], where it is not that of the plan
+    double length = 0.0;                 ///< of the dwell [s], a whole number of its samples
+    planning::ShownAttitude attitude{};  ///< at its beginning
+    bool torqued = false;                ///< slewed to, as the phases say
+    bool level = false;                  ///< Earth rate is commanded in the dwell
+    std::optional<double> heading{};     ///< of the case [rad], where it is recorded
+    planning::ShownAttitude turned{};    ///< if the case was at 45 deg; without axes: less likely
+    std::optional<double> sample{};      ///< of its own [s], where it is not that of the plan
   };
   double sample = 0.0;          ///< of most rows of the dwells [s]
   bool level = false;           ///< Earth rate is commanded in most dwells

@@ -38,14 +38,14 @@ std::string mode_text(bool level) {
 std::string position_text(const RecordedPlan& plan, std::size_t number, Dwells dwells) {
   const RecordedPlan::Position& p = plan.positions[number - 1];
   std::string text = fmt::format("[[plan.position]]\nname  = \"position {}\"\n{}\n", number,
-                                 attitude_keys(p.attitude, "  ", "\n"));
+                                 planning::attitude_keys(p.attitude, "  ", "\n"));
   if (p.torqued) text += "entry = \"torqued\"\n";
   if (p.level != plan.level) text += fmt::format("mode  = \"{}\"\n", mode_text(p.level));
   if (p.heading)
     text += fmt::format("case_heading = \"{:.0f} deg\"\n", std::round(*p.heading / detail::deg));
   if (!p.turned.axes.empty())
     text += fmt::format("# or, of a case at 45 deg: {} and case_heading = \"45 deg\"\n",
-                        attitude_keys(p.turned, " ", ", "));
+                        planning::attitude_keys(p.turned, " ", ", "));
   if (dwells == Dwells::alike) return text;
   text += fmt::format("dwell = \"{:.12g} s\"\n", p.length);
   if (p.sample) text += fmt::format("sample = \"{:.9g} s\"\n", *p.sample);

@@ -5,7 +5,7 @@
 
 #include "core/base/linalg.hpp"
 
-namespace drift::cli {
+namespace drift::planning {
 
 /// An attitude as a study file has it.
 struct ShownAttitude {
@@ -28,4 +28,4 @@ ShownAttitude shown_attitude(const Mat3& R_lp, double room);
 std::string attitude_keys(const ShownAttitude& attitude, const char* before_equals,
                           const char* between);
 
-}  // namespace drift::cli
+}  // namespace drift::planning

@@ -1,4 +1,4 @@
-#include "analysis/cli/shell/shown_attitude.hpp"
+#include "analysis/planning/shown_attitude.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include "core/physics/gimbals.hpp"
 #include "core/plan/test_plan.hpp"
 
-namespace drift::cli {
+namespace drift::planning {
 namespace {
 
 /// The directions nearest to the axes; empty where an axis lies between three, or they are no
@@ -93,4 +93,4 @@ std::string attitude_keys(const ShownAttitude& attitude, const char* before_equa
   return text;
 }
 
-}  // namespace drift::cli
+}  // namespace drift::planning
