@@ -24,7 +24,7 @@ std::string refusal(const std::function<void()>& action) {
   }
 }
 
-struct GivenRecordings : testing::Test {
+struct RecordingsInMemory : testing::Test {
   mc::Study study = test::six_study();
   Recording right = test::simulated(study);
 
@@ -46,11 +46,11 @@ struct GivenRecordings : testing::Test {
   }
 };
 
-TEST_F(GivenRecordings, NoneIsRefused) {
+TEST_F(RecordingsInMemory, NoneIsRefused) {
   expect_refused(std::vector<Recording>{}, "no recording is given (expected at least one)");
 }
 
-TEST_F(GivenRecordings, ThatNoFileCouldHoldAreRefused) {
+TEST_F(RecordingsInMemory, ThatNoFileCouldHoldAreRefused) {
   const auto leave_out = [](const char* name) {
     return [name](Recording& r) {
       std::erase_if(r.channels, [&](const Channel& c) { return c.name == name; });
@@ -77,7 +77,7 @@ TEST_F(GivenRecordings, ThatNoFileCouldHoldAreRefused) {
   EXPECT_NE(said.find("b.csv:position"), std::string::npos) << said;
 }
 
-TEST_F(GivenRecordings, NeedNoLines) {
+TEST_F(RecordingsInMemory, NeedNoLines) {
   right.lines.clear();
   std::vector<double>& x = test::channel(right, "gimbal_inner");
   std::fill(x.begin() + 40, x.begin() + 80, x[40]);
@@ -85,7 +85,7 @@ TEST_F(GivenRecordings, NeedNoLines) {
   EXPECT_TRUE(test::says(p, "gimbal_inner stands still for 40 samples, from line 41 on"));
 }
 
-TEST_F(GivenRecordings, OfACaseAreLookedOverToo) {
+TEST_F(RecordingsInMemory, OfACaseAreLookedOverToo) {
   Recording r;
   for (const char* name : {"time", "gyro_x", "gyro_y", "gyro_z", "acc_x", "acc_y", "acc_z"})
     r.channels.push_back({name, name[0] == 't' ? unit::s : unit::g, {0.0, 0.5, 1.0}});
