@@ -9,6 +9,6 @@ set(DRIFT_FULL_TESTS
   Nearest.* NothingReplaced.* OddInput.* OtherValley.* OwnTermCommands.* PolarLatitude.* RankCommand.* Rivals.* ScreenForms.* Documents.* Recording/BinaryFuzz.*
   RecordingFuzz.* Search.* Sensitivity.* SharedCandidates.* SharedTrials.* SharesOfExcess.* SiteDoubt.* SizeBeyondPrior.* Strapdown*.* StudyConfig.Misspelt*
   StudyMutation.* StudyReport.* WrongHemisphere.*
-  SweepPictures.* UnequalRowsDiagnosed.* UnknownField.* WhereFollows.* WrongPrior.*)
+  SweepPictures.* UndeclaredWalk.* UnequalRowsDiagnosed.* UnknownField.* WhereFollows.* WrongPrior.*)
 # Minutes each: not run unless asked for.
 set(DRIFT_NIGHTLY_TESTS *Nightly*.* Estimators/EveryTermUnder.IsConsistentOrRefusedInSlews/batch)

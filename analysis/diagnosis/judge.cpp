@@ -75,9 +75,10 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
       by == NamedBy::fit_alone || held_out.folds.empty() || (held_out.improves && members);
   const bool nameable = !best || (best->nameable && !found.just_not);
   const bool alone = one && !or_noise && !or_priors;
-  out.verdict = !best                         ? Verdict::unexplained
-                : alone && judged && nameable ? Verdict::named
-                                              : Verdict::ambiguous;
+  out.verdict = !best && posterior.wrong_priors <= 1.0 - credible ? Verdict::unexplained
+                : !best                                           ? Verdict::ambiguous
+                : alone && judged && nameable                     ? Verdict::named
+                                                                  : Verdict::ambiguous;
   if (found.just_not)
     out.remarks.emplace_back(remark::JustSignificantLeft{});
   else if (one && !nameable)
