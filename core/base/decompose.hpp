@@ -29,6 +29,7 @@ double largest_singular_value(const MatX& matrix);
 class Cholesky {
  public:
   explicit Cholesky(const MatX& A);
+  bool definite() const { return llt_.info() == Eigen::Success; }  ///< A is
   MatX L() const;
   VecX solve(const VecX& b) const;  ///< A^-1 b
   MatX solve(const MatX& b) const;

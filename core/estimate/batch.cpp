@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/check.hpp"
-#include "core/estimate/descent.hpp"
+#include "core/estimate/descent/descent.hpp"
 #include "core/estimate/triangle.hpp"
 #include "core/physics/stochastic.hpp"
 #include "core/sim/predict.hpp"

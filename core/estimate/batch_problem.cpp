@@ -63,6 +63,12 @@ void BatchProblem::take_every_sample() {
   compressed_.reset();
 }
 
+bool BatchProblem::jumps() const {
+  return std::ranges::any_of(layout().params, [](std::size_t i) {
+    return TermLibrary::specs[i].kind == ParamKind::moment;
+  });
+}
+
 std::optional<Eigen::Index> BatchProblem::multiplier() const {
   const auto& params = layout().params;
   const auto at = std::ranges::find(params, closure_param);

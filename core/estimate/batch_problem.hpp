@@ -54,6 +54,8 @@ class BatchProblem {
   const MeasuredTest& test() const { return test_; }
   const Layout& layout() const { return samples_.layout(); }
   bool walks() const { return angle_random_walk_ > 0.0; }
+  /// Whether the moment of a jump is estimated, in which the cost bends more than its rows say.
+  bool jumps() const;
   /// Of the parameters, the one that multiplies others: the weight between the two equations where
   /// it is estimated.
   std::optional<Eigen::Index> multiplier() const;

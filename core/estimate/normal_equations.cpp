@@ -27,7 +27,8 @@ bool NormalEquations::good_to(double relative) const {
   return 2.0 * std::numeric_limits<double>::epsilon() * largest < relative;
 }
 
-BatchEquations::Step NormalEquations::solve(double mu, std::optional<Eigen::Index> held) const {
+BatchEquations::Step NormalEquations::solve(double mu, std::optional<Eigen::Index> held,
+                                            const MatX& second) const {
   const Eigen::Index n = x_.size();
   // S over [x | r], what is left of a chain when its attitude is eliminated: L L^T is that of the
   // attitude with its prior and damping, T = L^-1 [its columns].
@@ -47,14 +48,19 @@ BatchEquations::Step NormalEquations::solve(double mu, std::optional<Eigen::Inde
   MatX on_x = S.topLeftCorner(n, n);
   on_x.diagonal().array() += 1.0 + mu;
   VecX right = S.row(n).head(n).transpose() - x_;
-  if (held) {
-    on_x.row(*held).setZero();
-    on_x.col(*held).setZero();
-    on_x(*held, *held) = 1.0;
-    right[*held] = 0.0;
-  }
+  if (held) right[*held] = 0.0;
+  const auto solved = [&](MatX A) {
+    if (held) {
+      A.row(*held).setZero();
+      A.col(*held).setZero();
+      A(*held, *held) = 1.0;
+    }
+    return Cholesky(A);
+  };
   BatchEquations::Step step;
-  step.dx = Cholesky(on_x).solve(right);
+  if (second.size() > 0)
+    if (const Cholesky all = solved(on_x + second); all.definite()) step.dx = all.solve(right);
+  if (step.dx.size() == 0) step.dx = solved(on_x).solve(right);
   step.slope = right.dot(step.dx);
   for (const Mat3X& t : T) step.slope += t.col(n).squaredNorm();
   for (std::size_t c = 0; c < chains_.size(); ++c)

@@ -19,8 +19,10 @@ class NormalEquations {
   /// Whether rounding is below `relative` of the information of the prior, which is one: a step is
   /// off by no more in any direction.
   bool good_to(double relative) const;
-  /// held: a parameter that stays where it is.
-  BatchEquations::Step solve(double mu, std::optional<Eigen::Index> held = {}) const;
+  /// held: a parameter that stays where it is. second: added to the normal matrix of x where the
+  /// sum is positive definite; empty: none.
+  BatchEquations::Step solve(double mu, std::optional<Eigen::Index> held = {},
+                             const MatX& second = {}) const;
 
  private:
   std::vector<MatX> chains_;  ///< rows^T rows of each, lower triangle

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/estimate/descent.hpp"
+#include "core/estimate/descent/descent.hpp"
 #include "core/estimate/triangle.hpp"
 
 namespace drift {

@@ -12,7 +12,6 @@
 namespace drift {
 namespace {
 
-using config::Node;
 using config::Option;
 using config::Section;
 
@@ -48,9 +47,9 @@ struct Words {
   }
 };
 
-std::optional<AxisTurn> read_turn(Section& section, const Node& node) {
+std::optional<AxisTurn> read_turn(Section& section, const config::Node& node) {
   const std::string full = section.full(key);
-  if (!node.is(Node::Kind::string) || node.text.size() > config::longest_text) {
+  if (!node.is(config::Node::Kind::string) || node.text.size() > config::longest_text) {
     section.report().error(
         node.at, fmt::format("'{}' is {} (expected {}). Write {} = \"10 deg about y\"", full,
                              config::describe(node), expected, key));
@@ -72,7 +71,7 @@ std::optional<AxisTurn> read_turn(Section& section, const Node& node) {
                              "platform). {}",
                              full, to_toml(node), words.axis,
                              config::suggestion(words.axis, axes, "Name x, y or z")));
-  Node angle = node;
+  config::Node angle = node;
   angle.text = words.angle;
   const auto q = config::read_quantity(section.report(), angle, full, angle_option);
   if (!q || axis == axes.end()) return std::nullopt;
@@ -84,11 +83,11 @@ std::optional<AxisTurn> read_turn(Section& section, const Node& node) {
 
 std::vector<AxisTurn> read_turns(Section& section) {
   std::vector<AxisTurn> turns;
-  const Node* node = section.take(key, Section::Kind::text_or_list, expected);
+  const config::Node* node = section.take(key, Section::Kind::text_or_list, expected);
   if (node == nullptr) return turns;
-  const bool list = node->is(Node::Kind::array) && !node->items.empty();
+  const bool list = node->is(config::Node::Kind::array) && !node->items.empty();
   bool right = true;
-  for (const Node& one : list ? node->items : std::vector<Node>{*node}) {
+  for (const config::Node& one : list ? node->items : std::vector<config::Node>{*node}) {
     auto turn = read_turn(section, one);
     right = right && turn;
     if (turn) turns.push_back(std::move(*turn));

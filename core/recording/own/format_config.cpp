@@ -15,7 +15,6 @@
 namespace drift {
 namespace {
 
-using config::Node;
 using config::Option;
 using config::Report;
 using config::Section;
@@ -25,9 +24,9 @@ const std::vector<config::Member>& members(Section& section, std::string_view ke
                                            std::string_view example) {
   static const std::vector<config::Member> none;
   const std::string expected = "a table";
-  const Node* node = section.take(key, Section::Kind::table, expected);
+  const config::Node* node = section.take(key, Section::Kind::table, expected);
   if (node == nullptr) return none;
-  if (node->is(Node::Kind::table)) return node->members;
+  if (node->is(config::Node::Kind::table)) return node->members;
   section.report().error(node->at,
                          fmt::format("'{}' is {} (expected {}). Write {}", section.full(key),
                                      describe(*node), expected, example));
@@ -59,8 +58,8 @@ void read_columns(Section& section, RecordingKind kind, RecordingFormat& format)
   for (const auto& member : members(section, "columns", example)) {
     const std::string key = section.full(fmt::format("columns.{}", member.key));
     if (!check_channel(section, "columns", member, kind)) continue;
-    const Node& value = member.value;
-    std::string_view text = value.is(Node::Kind::string) ? trimmed(value.text) : "";
+    const config::Node& value = member.value;
+    std::string_view text = value.is(config::Node::Kind::string) ? trimmed(value.text) : "";
     const bool minus = text.starts_with('-');
     const HeaderCell cell = header_cell(minus ? text.substr(1) : text);
     if (cell.name.empty() || cell.open) {
@@ -95,11 +94,11 @@ void read_positions(Section& section, const std::vector<std::string>& names,
   const auto most = static_cast<std::int64_t>(names.size());
   for (const auto& member : members(section, "positions", "positions = { \"x up\" = 1 }")) {
     const std::string key = section.full(fmt::format("positions.\"{}\"", member.key));
-    const Node& value = member.value;
+    const config::Node& value = member.value;
     const auto named =
-        value.is(Node::Kind::string) ? std::ranges::find(names, value.text) : names.end();
+        value.is(config::Node::Kind::string) ? std::ranges::find(names, value.text) : names.end();
     std::int64_t number = -1;
-    if (value.is(Node::Kind::integer) && value.integer >= 0 && value.integer <= most)
+    if (value.is(config::Node::Kind::integer) && value.integer >= 0 && value.integer <= most)
       number = value.integer;
     if (named != names.end()) number = named - names.begin() + 1;
     if (number < 0) {
@@ -108,7 +107,7 @@ void read_positions(Section& section, const std::vector<std::string>& names,
                              fmt::format("'{}' is {} (expected a position of the plan: 1 to {}, or "
                                          "its name, or 0 where it is turned). {}",
                                          key, describe(value), most,
-                                         value.is(Node::Kind::string)
+                                         value.is(config::Node::Kind::string)
                                              ? config::suggestion(value.text, known, "Correct it")
                                              : "Correct it"));
       continue;
@@ -139,21 +138,21 @@ std::vector<std::string> read_names(Section& section, std::string_view key,
                                     const std::string& expected, std::string_view example,
                                     bool numbers = false) {
   std::vector<std::string> names;
-  const Node* node = section.take(key, Section::Kind::list, expected);
+  const config::Node* node = section.take(key, Section::Kind::list, expected);
   if (node == nullptr) return names;
-  const auto is_text = [&](const Node& item) {
-    return item.is(Node::Kind::string) ||
-           (numbers && (item.is(Node::Kind::integer) || item.is(Node::Kind::real)));
+  const auto is_text = [&](const config::Node& item) {
+    return item.is(config::Node::Kind::string) ||
+           (numbers && (item.is(config::Node::Kind::integer) || item.is(config::Node::Kind::real)));
   };
-  if (!node->is(Node::Kind::array) || !std::ranges::all_of(node->items, is_text)) {
+  if (!node->is(config::Node::Kind::array) || !std::ranges::all_of(node->items, is_text)) {
     section.report().error(
         node->at, fmt::format("'{}' is {} (expected {}). Write {} = [\"{}\"]", section.full(key),
                               describe(*node), expected, key, example));
     return names;
   }
-  for (const Node& item : node->items)
-    names.push_back(item.is(Node::Kind::string) ? std::string(trimmed(item.text))
-                                                : config::to_toml(item));
+  for (const config::Node& item : node->items)
+    names.push_back(item.is(config::Node::Kind::string) ? std::string(trimmed(item.text))
+                                                        : config::to_toml(item));
   section.report().given(section.full(key), config::to_toml(*node), node->at);
   return names;
 }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/estimate/descent.hpp"
+#include "core/estimate/descent/descent.hpp"
 #include "core/estimate/starts.hpp"
 #include "core/sim/simulate.hpp"
 #include "tests/support/model_builders.hpp"

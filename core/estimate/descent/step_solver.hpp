@@ -16,8 +16,11 @@ class StepSolver {
     if (!normal_.good_to(of_the_prior)) triangles_ = compressed(e);
   }
   /// Damped by mu; held: a parameter that stays where it is.
-  BatchEquations::Step solve(double mu, std::optional<Eigen::Index> held) const {
-    return triangles_ ? triangles_->solve(mu, held) : normal_.solve(mu, held);
+  /// second: what is known of the second order, used where the sum is positive definite and its
+  /// digits are good enough.
+  BatchEquations::Step solve(double mu, std::optional<Eigen::Index> held,
+                             const MatX& second = {}) const {
+    return triangles_ ? triangles_->solve(mu, held) : normal_.solve(mu, held, second);
   }
 
  private:

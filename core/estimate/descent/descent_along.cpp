@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/estimate/descent.hpp"
-#include "core/estimate/step_solver.hpp"
+#include "core/estimate/descent/descent.hpp"
+#include "core/estimate/descent/step_solver.hpp"
 
 namespace drift {
 namespace {

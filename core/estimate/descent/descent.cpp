@@ -1,13 +1,17 @@
-#include "core/estimate/descent.hpp"
+#include "core/estimate/descent/descent.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/estimate/step_solver.hpp"
+#include "core/estimate/descent/second_order.hpp"
+#include "core/estimate/descent/step_solver.hpp"
 
 namespace drift {
 namespace {
 
+/// Where the cost is near enough to a parabola: a step that lowers it by less. Squared, as it is.
+constexpr double one_sigma = 1.0;
 /// Small steps may be damping's doing.
 constexpr double hardly_damped = 1e-2;
 
@@ -17,7 +21,6 @@ constexpr double hardly_damped = 1e-2;
 /// and Wright, Numerical Optimization, 4.1), and where the cost need not be a parabola: of one
 /// longer than a sigma, or that ends higher than twice its slope.
 double best_part(double slope, double change) {
-  constexpr double one_sigma = 1.0;  // squared, as the cost is
   const bool gains = change <= -0.25 * slope, near = slope < one_sigma && change <= 2.0 * slope;
   return gains || !near ? 1.0 : slope / (change + 2.0 * slope);
 }
@@ -29,6 +32,7 @@ class Descent {
       : problem_(problem),
         options_(options),
         held_(held),
+        jumps_(problem.jumps()),
         standing_still_(options.tolerance * options.tolerance),
         now_{problem.evaluate(std::move(x), std::move(psi)), 0, false} {}
 
@@ -44,12 +48,22 @@ class Descent {
     const StepSolver solver(now_.at);
     double smallest_change = std::numeric_limits<double>::infinity();
     for (int tries = 0; tries < 20; ++tries) {
-      const BatchEquations::Step step = solver.solve(mu_, held_);
+      const BatchEquations::Step step = solver.solve(mu_, held_, second_.matrix());
       if (mu_ < hardly_damped && step.slope < standing_still_) {
+        // A bend that was learnt elsewhere would make it stand still anywhere.
+        if (bends() && solver.solve(mu_, held_).slope >= standing_still_) {
+          doubt();
+          continue;
+        }
         now_.converged = true;
         return false;
       }
       Evaluation next = after(step, 1.0);
+      // Farther off than a sigma the rows alone lead the better way.
+      if (jumps_ && step.slope < one_sigma)
+        second_.learn(now_.at, next);
+      else
+        second_.forget();
       // Damping shortens steps in directions that are seen little, whichever goes too far.
       if (const double part = best_part(step.slope, next.cost - now_.at.cost); part < 1.0)
         if (Evaluation before = after(step, part); before.cost < next.cost)
@@ -61,6 +75,7 @@ class Descent {
       }
       smallest_change = std::min(smallest_change, next.cost - now_.at.cost);
       mu_ *= 10.0;
+      if (jumps_) mu_ = std::max(mu_, hardly_damped);  // less would change nothing
     }
     now_.converged = smallest_change < standing_still_;  // up to rounding of the cost
     return false;
@@ -79,7 +94,18 @@ class Descent {
     // and lies in it.
     now_.converged = still_ > 0 && (mu_ < hardly_damped || still_ == 3);
     now_.at = std::move(next);
+    if (now_.converged && bends()) doubt();
     mu_ = std::max(mu_ * 0.1, 1e-12);
+  }
+
+  /// Whether steps are of a second order that has not been doubted yet.
+  bool bends() const { return !doubted_ && second_.matrix().size() > 0; }
+  /// On without it; what is learnt here is believed.
+  void doubt() {
+    doubted_ = true;
+    second_.forget();
+    still_ = 0;
+    now_.converged = false;
   }
 
   BatchProblem& problem_;
@@ -87,6 +113,9 @@ class Descent {
   std::optional<Eigen::Index> held_;
   double standing_still_;
   Minimum now_;
+  bool jumps_;
+  SecondOrder second_;
+  bool doubted_ = false;
   double mu_ = 1e-3;
   int still_ = 0;  ///< iterations in a row that hardly lowered the cost
 };
