@@ -60,7 +60,7 @@ BatchEquations::Step NormalEquations::solve(double mu, std::optional<Eigen::Inde
   BatchEquations::Step step;
   if (second.size() > 0)
     if (const Cholesky all = solved(on_x + second); all.definite()) step.dx = all.solve(right);
-  if (step.dx.size() == 0) step.dx = solved(on_x).solve(right);
+  if (step.dx.size() == 0) step.dx = solved(std::move(on_x)).solve(right);
   step.slope = right.dot(step.dx);
   for (const Mat3X& t : T) step.slope += t.col(n).squaredNorm();
   for (std::size_t c = 0; c < chains_.size(); ++c)

@@ -111,9 +111,9 @@ class Descent {
   BatchProblem& problem_;
   BatchOptions options_;
   std::optional<Eigen::Index> held_;
+  bool jumps_;  ///< the moment of one is estimated
   double standing_still_;
   Minimum now_;
-  bool jumps_;
   SecondOrder second_;
   bool doubted_ = false;
   double mu_ = 1e-3;

@@ -12,7 +12,8 @@ struct Minimum {
   bool converged = false;
 };
 
-/// Levenberg and Marquardt; near the minimum, of a step that goes too far, the best part. Ends
+/// Levenberg and Marquardt; near the minimum, of a step that goes too far, the best part, and of a
+/// model with the moment of a jump the second order that its steps have shown (SecondOrder). Ends
 /// where the next step would lower the cost by less than the square of the tolerance: where it
 /// would be shorter than that in posterior sigmas. held: a parameter that stays where it is.
 Minimum descend(BatchProblem& problem, VecX x, std::vector<Vec3> psi, const BatchOptions& options,
