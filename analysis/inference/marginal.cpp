@@ -44,8 +44,8 @@ Marginal MarginalLikelihood::at(const NoiseModel& noise) const {
   const std::size_t all = rows_.size() / width_;
   for (std::size_t first = 0; first < all; first += at_once) {
     const std::size_t count = std::min(at_once, all - first);
-    std::copy_n(rows_.data() + first * width_, count * width_, part.data());
-    filter.whiten(columns, part.data(), static_cast<Eigen::Index>(count));
+    filter.whiten(columns, rows_.data() + first * width_, part.data(),
+                  static_cast<Eigen::Index>(count));
     information.add(part.data(), count);
   }
   constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 #include "analysis/inference/noise_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -62,8 +63,7 @@ template <int states>
 void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, int used) {
   constexpr int others = states - 3;
   constexpr int whole = static_cast<int>(whole_lanes(states));  // rows: Eigen handles them by lanes
-  using Pairs = Eigen::Matrix<double, whole, states>;
-  using Over = Eigen::Matrix<double, states, 1>;
+  using Pairs = Eigen::Matrix<double, whole, states>;           // by its columns, each whole lanes
   const NoiseStates s(noise);
   Pairs P = Pairs::Zero();
   const OverPairs initial = initial_covariance(s, noise);
@@ -87,16 +87,25 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
       },
       [&](const NoiseStep& step) {
         if constexpr (others > 0) {
-          Eigen::Matrix<double, 4, others> drive;  // a fourth row of zeros
-          drive << step.drive.template leftCols<others>(), Eigen::Matrix<double, 1, others>::Zero();
-          const Eigen::Matrix<double, others, 1> decay = step.decay.template head<others>();
+          events_.push_back({next, 0, moves_.size()});
+          moves_.resize(moves_.size() + 4 * others);
+          double* const move = moves_.data() + events_.back().move;
+          Eigen::Matrix<double, whole, 1> decay = Eigen::Matrix<double, whole, 1>::Ones();
+          for (int m = 0; m < others; ++m) {
+            for (int i = 0; i < 3; ++i) move[4 * m + i] = step.drive(i, m);
+            move[4 * m + 3] = decay[3 + m] = step.decay[m];
+          }
           // F P F' of F = [1, drive; 0, decay].
-          P.template topRows<4>() += drive * P.template middleRows<others>(3);
-          P.template leftCols<3>() +=
-              P.template rightCols<others>() * drive.template topRows<3>().transpose();
-          P.template middleRows<others>(3).array().colwise() *= decay.array();
-          P.template rightCols<others>().array().rowwise() *= decay.transpose().array();
-          P.diagonal().template tail<others>() += step.variance.template head<others>();
+          for (int c = 0; c < states; ++c) {
+            for (int m = 0; m < others; ++m)
+              P.col(c).template head<3>() += P(3 + m, c) * step.drive.col(m);
+            P.col(c).array() *= decay.array();
+          }
+          for (int m = 0; m < others; ++m) {
+            for (int i = 0; i < 3; ++i) P.col(i) += P.col(3 + m) * step.drive(i, m);
+            P.col(3 + m) *= step.decay[m];
+            P(3 + m, 3 + m) += step.variance[m];
+          }
           if constexpr (others >= 3)
             if (step.kicked) {  // of the first of the others
               P.template topLeftCorner<3, 3>() += step.kick * step.kick.transpose();
@@ -104,22 +113,24 @@ void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, 
               P.template block<3, 3>(3, 0) += step.kick.transpose();
             }
           P.template topLeftCorner<3, 3>() += step.anew * step.anew.transpose();
-          events_.push_back({next, 0, moves_.size()});
-          for (int m = 0; m < others; ++m)
-            moves_.insert(moves_.end(), {drive(0, m), drive(1, m), drive(2, m), decay[m]});
         }
       },
       [&](Eigen::Index k, const OverStates& given, double sigma) {
         const auto at = static_cast<std::size_t>(k);
-        Eigen::Map<Over> h(H_.data() + at * states), gain(gain_.data() + at * states);
-        h.setZero();
-        h.head(used) = given;
-        const Eigen::Matrix<double, whole, 1> Ph = P * h;
-        const double S = h.dot(Ph.template head<states>()) + sigma * sigma;
-        gain = Ph.template head<states>() / S;
+        double* const h = H_.data() + at * states;  // zero from `used` on
+        double* const gain = gain_.data() + at * states;
+        std::copy_n(given.data(), used, h);
+        Eigen::Matrix<double, whole, 1> Ph = P.col(0) * h[0];
+        for (int m = 1; m < states; ++m) Ph += P.col(m) * h[m];
+        double S = sigma * sigma;
+        for (int m = 0; m < states; ++m) S += h[m] * Ph[m];
         root_[at] = std::sqrt(S);
-        P.noalias() -= Ph * gain.transpose();
-        reads_others_[at] = !h.template tail<others>().isZero(0.0);
+        const double inverse = 1.0 / S;
+        for (int m = 0; m < states; ++m) {
+          gain[m] = Ph[m] * inverse;
+          P.col(m) -= Ph * gain[m];
+        }
+        reads_others_[at] = std::any_of(h + 3, h + states, [](double x) { return x != 0.0; });
         product *= S;
         if (!(product > 1e-150 && product < 1e150))
           log_det_ += std::log(std::exchange(product, 1.0));
@@ -135,12 +146,12 @@ NoiseFilter::Columns NoiseFilter::begin(std::size_t width, Eigen::Index first) c
 }
 
 template <int states, int lanes, NoiseFilter::Way way>
-void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, double* rows,
-                            Eigen::Index count, double* state) const {
+void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, const double* from,
+                            double* to, Eigen::Index count, double* state) const {
   const std::size_t width = columns.width;
   const Lanes zero = broadcast(0.0);
   Lanes x[states][lanes];
-  const auto at = [&](double* of, std::size_t row, int l) {
+  const auto at = [&](auto* of, std::size_t row, int l) {
     return of + row * width + column + static_cast<std::size_t>(l) * lane_width;
   };
   for (int m = 0; m < states; ++m)
@@ -170,7 +181,7 @@ void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, double* 
     constexpr double sign = way == Way::whiten ? -1.0 : 1.0;
     Lanes e[lanes], y[lanes];
     for (int l = 0; l < lanes; ++l) {
-      e[l] = load(at(rows, static_cast<std::size_t>(r), l));
+      e[l] = load(at(from, static_cast<std::size_t>(r), l));
       if constexpr (way == Way::colour) e[l] = mul_add(e[l], broadcast(root_[k]), zero);
       y[l] = e[l];
     }
@@ -189,7 +200,7 @@ void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, double* 
       for (int l = 0; l < lanes; ++l) x[m][l] = mul_add(innovation[l], broadcast(gain[m]), x[m][l]);
     for (int l = 0; l < lanes; ++l) {
       if constexpr (way == Way::whiten) y[l] = mul_add(y[l], broadcast(1.0 / root_[k]), zero);
-      store(at(rows, static_cast<std::size_t>(r), l), y[l]);
+      store(at(to, static_cast<std::size_t>(r), l), y[l]);
     }
   }
   for (int m = 0; m < states; ++m)
@@ -197,26 +208,31 @@ void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, double* 
 }
 
 template <int states>
-void NoiseFilter::run(Way way, Columns& columns, double* rows, Eigen::Index count) const {
+void NoiseFilter::run(Way way, Columns& columns, const double* from, double* to,
+                      Eigen::Index count) const {
   for_lanes<lanes_of<states>()>(columns.width, [&]<int lanes>(std::size_t column) {
     double* state = columns.state.data();
-    way == Way::whiten ? run_lanes<states, lanes, Way::whiten>(columns, column, rows, count, state)
-                       : run_lanes<states, lanes, Way::colour>(columns, column, rows, count, state);
+    way == Way::whiten
+        ? run_lanes<states, lanes, Way::whiten>(columns, column, from, to, count, state)
+        : run_lanes<states, lanes, Way::colour>(columns, column, from, to, count, state);
   });
   columns.row += count;
   while (columns.event < events_.size() && events_[columns.event].row < columns.row)
     ++columns.event;
 }
 
-void NoiseFilter::run(Way way, Columns& columns, double* rows, Eigen::Index count) const {
-  for_states(states_, [&]<int states>() { run<states>(way, columns, rows, count); });
+void NoiseFilter::run(Way way, Columns& columns, const double* from, double* to,
+                      Eigen::Index count) const {
+  for_states(states_, [&]<int states>() { run<states>(way, columns, from, to, count); });
 }
 
-void NoiseFilter::whiten(Columns& columns, double* rows, Eigen::Index count) const {
-  run(Way::whiten, columns, rows, count);
+void NoiseFilter::whiten(Columns& columns, const double* rows, double* white,
+                         Eigen::Index count) const {
+  run(Way::whiten, columns, rows, white, count);
 }
-void NoiseFilter::colour(Columns& columns, double* rows, Eigen::Index count) const {
-  run(Way::colour, columns, rows, count);
+void NoiseFilter::colour(Columns& columns, const double* white, double* rows,
+                         Eigen::Index count) const {
+  run(Way::colour, columns, white, rows, count);
 }
 
 }  // namespace drift::inference

@@ -30,10 +30,10 @@ class NoiseFilter {
     Eigen::Index row = 0;
   };
   Columns begin(std::size_t width, Eigen::Index first = 0) const;
-  /// The next `count` rows, in place.
-  void whiten(Columns& columns, double* rows, Eigen::Index count) const;
+  /// The next `count` rows; `white` may be where the rows are.
+  void whiten(Columns& columns, const double* rows, double* white, Eigen::Index count) const;
   /// The way back: white rows become noise with this covariance.
-  void colour(Columns& columns, double* rows, Eigen::Index count) const;
+  void colour(Columns& columns, const double* white, double* rows, Eigen::Index count) const;
 
  private:
   enum class Way { whiten, colour };
@@ -48,11 +48,11 @@ class NoiseFilter {
   template <int states>
   void find_gains(const MeasuredRows& rows, const NoiseModel& noise, int used);
   template <int states>
-  void run(Way way, Columns& columns, double* rows, Eigen::Index count) const;
+  void run(Way way, Columns& columns, const double* from, double* to, Eigen::Index count) const;
   template <int states, int lanes, Way way>
-  void run_lanes(const Columns& columns, std::size_t column, double* rows, Eigen::Index count,
-                 double* state) const;
-  void run(Way way, Columns& columns, double* rows, Eigen::Index count) const;
+  void run_lanes(const Columns& columns, std::size_t column, const double* from, double* to,
+                 Eigen::Index count, double* state) const;
+  void run(Way way, Columns& columns, const double* from, double* to, Eigen::Index count) const;
 
   int states_ = 3;  ///< rounded up to those that there is code for
   Eigen::Index rows_ = 0;

@@ -7,7 +7,7 @@
 namespace drift::inference {
 namespace {
 
-using Go = void (NoiseFilter::*)(NoiseFilter::Columns&, double*, Eigen::Index) const;
+using Go = void (NoiseFilter::*)(NoiseFilter::Columns&, const double*, double*, Eigen::Index) const;
 
 MatX through(const NoiseFilter& filter, Go go, MatX columns, Eigen::Index first) {
   constexpr Eigen::Index at_once = 64;  // rows: they stay in the cache
@@ -18,7 +18,7 @@ MatX through(const NoiseFilter& filter, Go go, MatX columns, Eigen::Index first)
   for (Eigen::Index start = 0; start < columns.rows(); start += at_once) {
     const Eigen::Index count = std::min(at_once, columns.rows() - start);
     part.topLeftCorner(count, columns.cols()) = columns.middleRows(start, count);
-    (filter.*go)(at, part.data(), count);
+    (filter.*go)(at, part.data(), part.data(), count);
     columns.middleRows(start, count) = part.topLeftCorner(count, columns.cols());
   }
   return columns;

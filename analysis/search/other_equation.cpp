@@ -1,6 +1,7 @@
 #include "analysis/search/other_equation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "analysis/inference/misalignments.hpp"
@@ -32,6 +33,15 @@ std::optional<Choice> change_of_equation(const inference::CandidateSet& set) {
   return {};
 }
 
+/// Whether two fits of one model ended at the same point: nearer than a hundredth of a sigma.
+bool ended_alike(const BatchResult& a, const BatchResult& b) {
+  constexpr double near = 1e-2;
+  const auto &one = a.estimate.parameters, &other = b.estimate.parameters;
+  return std::ranges::equal(one, other, [](const ParameterEstimate& p, const ParameterEstimate& q) {
+    return std::abs(p.value - q.value) <= near * p.sigma;
+  });
+}
+
 }  // namespace
 
 std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const MeasuredTest& test) {
@@ -48,6 +58,7 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   };
   for (const Theta& start : {here, make_layout(out.filter).theta}) {
     BatchResult fit = fit_batch_from(out.filter, test, start, nominal.fit.psi0_l);
+    if (std::isfinite(out.gain) && ended_alike(fit, out.fit)) continue;
     inference::LinearProblem problem = inference::linear_problem(out.filter, test, fit, {});
     problem.weight = nominal.problem.weight;
     double gain = gain_under(problem, nominal.noise.model);
@@ -82,6 +93,7 @@ std::vector<BesideEquation> beside_other_equation(const Search& s, const Measure
   for (std::size_t i = 0; i < std::min(EffortLimits::beside_asked, order.size()) &&
                           pairs.size() < EffortLimits::beside;
        ++i) {
+    if (there.set.candidates[order[i]].term == closure_term) continue;  // is changed already
     const std::size_t variant = there.scores[order[i]].variant;
     const auto cause = same_choice(s.nominal.set, there.set.candidates[order[i]], variant);
     if (cause && left.quiet_beside({{order[i], variant}}))

@@ -66,6 +66,17 @@ std::vector<Refit> refit_singles(const Search& s, const MeasuredTest& test, std:
   return refits;
 }
 
+/// Whether an effect with the other equation would only stand for what it holds: one that leaves
+/// nothing with the nominal equation, the slope of lambda included, and does as well (heads_of).
+bool says_no_more(const Search& s, const BesideEquation& pair, const std::vector<Refit>& singles) {
+  return std::ranges::any_of(singles, [&](const Refit& r) {
+    return r.adequate() &&
+           of_a_chosen_family(s.nominal.set, pair.choices,
+                              s.nominal.set.candidates[r.choices.front().candidate]) &&
+           pair.log_bayes < r.log_bayes + inference::WeighLimits::more_parameters;
+  });
+}
+
 /// Effects with another equation that may do as well as the best; none where that alone will do.
 std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTest& test,
                                                const std::vector<Refit>& singles) {
@@ -77,7 +88,8 @@ std::vector<Explanation> worth_beside_equation(const Search& s, const MeasuredTe
   }
   std::vector<Explanation> worth;
   for (BesideEquation& b : beside_other_equation(s, test, best ? &best->after.noise : nullptr))
-    if (!best || b.log_bayes > best->log_bayes - ReachLimits::negligible)
+    if (!says_no_more(s, b, singles) &&
+        (!best || b.log_bayes > best->log_bayes - ReachLimits::negligible))
       worth.push_back(std::move(b.choices));
   return worth;
 }

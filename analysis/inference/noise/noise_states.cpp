@@ -1,53 +1,64 @@
 #include "analysis/inference/noise/noise_states.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace drift::inference {
 
-NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
-                  bool first_half) {
-  const double dt = 0.5 * d.length, gap = first_half ? d.gap : 0.0;
-  NoiseStep step;
-  const auto others = [](int state) { return state - 3; };
-  const Mat3 part = 0.5 * d.per_rate * n.gyros.asDiagonal();
-  if (s.white >= 0) {
-    const Mat3 half = part * (n.angle_random_walk / std::sqrt(d.length));  // of a value held
-    if (first_half) {  // a new value, which acts at once
-      step.decay.segment<3>(others(s.white)).setZero();
-      step.variance.segment<3>(others(s.white)).setOnes();
+namespace {
+
+int others(int state) {
+  return state - 3;
+}
+
+}  // namespace
+
+NoiseSteps::NoiseSteps(const NoiseStates& states, const NoiseModel& noise) : s_(states), n_(noise) {
+  if (s_.white < 0) return;
+  NoiseStep& first = halves_[0].step;  // a new value, which acts at once
+  first.kicked = true;
+  first.decay.segment<3>(others(s_.white)).setZero();
+  first.variance.segment<3>(others(s_.white)).setOnes();
+}
+
+void NoiseSteps::pass(NoiseStep& step, double time) const {
+  const auto process = [&](int state, int count, double tau) {
+    const double phi = std::isinf(tau) ? 1.0 : std::exp(-time / tau);
+    step.decay.segment(others(state), count).setConstant(phi);
+    step.variance.segment(others(state), count)
+        .setConstant(std::isinf(tau) ? time : 1.0 - phi * phi);
+  };
+  if (s_.walk >= 0) process(s_.walk, 3, std::numeric_limits<double>::infinity());
+  if (s_.markov >= 0) process(s_.markov, 3, n_.markov_tau);
+  if (s_.acc >= 0) process(s_.acc, 3, n_.acc_tau);
+  if (s_.lone >= 0) process(s_.lone, 1, n_.lone.tau);
+}
+
+void NoiseSteps::drive(NoiseStep& step, const IntervalDrive& d, bool first_half) const {
+  const Mat3 part = 0.5 * d.per_rate * n_.gyros.asDiagonal();
+  if (s_.white >= 0) {
+    const Mat3 half = part * (n_.angle_random_walk / std::sqrt(d.length));  // of a value held
+    if (first_half) {
       step.kick = 2.0 * std::numbers::inv_sqrt3 * half;
-      step.kicked = true;
     } else {
-      step.drive.middleCols<3>(others(s.white)) = std::numbers::inv_sqrt3 * half;
+      step.drive.middleCols<3>(others(s_.white)) = std::numbers::inv_sqrt3 * half;
       step.anew = half;
     }
   }
-  if (s.walk >= 0) {
-    step.drive.middleCols<3>(others(s.walk)) = part * n.drift_random_walk;
-    step.variance.segment<3>(others(s.walk)).setConstant(dt + gap);
-  }
-  if (s.markov >= 0) {
-    const double phi = std::exp(-(dt + gap) / n.markov_tau);
-    step.drive.middleCols<3>(others(s.markov)) = part * n.markov_drift;
-    step.decay.segment<3>(others(s.markov)).setConstant(phi);
-    step.variance.segment<3>(others(s.markov)).setConstant(1.0 - phi * phi);
-  }
-  if (s.caging >= 0) step.drive.middleCols<3>(others(s.caging)) = part * n.caging_drift;
-  if (s.acc >= 0) {
-    const double phi = std::exp(-(dt + gap) / n.acc_tau);
-    step.decay.segment<3>(others(s.acc)).setConstant(phi);
-    step.variance.segment<3>(others(s.acc)).setConstant(1.0 - phi * phi);
-  }
-  if (s.lone >= 0) {
-    const bool walks = std::isinf(n.lone.tau);
-    const double phi = walks ? 1.0 : std::exp(-(dt + gap) / n.lone.tau);
-    step.decay[others(s.lone)] = phi;
-    step.variance[others(s.lone)] = walks ? dt + gap : 1.0 - phi * phi;
-    if (n.lone.equation == Equation::rate)
-      step.drive.col(others(s.lone)) = 0.5 * n.lone.sigma * d.per_rate.col(n.lone.axis);
-  }
-  return step;
+  if (s_.walk >= 0) step.drive.middleCols<3>(others(s_.walk)) = part * n_.drift_random_walk;
+  if (s_.markov >= 0) step.drive.middleCols<3>(others(s_.markov)) = part * n_.markov_drift;
+  if (s_.caging >= 0) step.drive.middleCols<3>(others(s_.caging)) = part * n_.caging_drift;
+  if (s_.lone >= 0 && n_.lone.equation == Equation::rate)
+    step.drive.col(others(s_.lone)) = 0.5 * n_.lone.sigma * d.per_rate.col(n_.lone.axis);
+}
+
+const NoiseStep& NoiseSteps::of(const IntervalDrive& d, bool first_half) {
+  Half& half = halves_[first_half ? 0 : 1];
+  const double time = 0.5 * d.length + (first_half ? d.gap : 0.0);
+  if (time != half.time) pass(half.step, half.time = time);
+  drive(half.step, d, first_half);
+  return half.step;
 }
 
 NoiseStep caged(const NoiseStates& s) {

@@ -41,10 +41,28 @@ struct NoiseStep {
   Mat3 anew = Mat3::Zero();  ///< by a value that nothing before it feels, on the attitude
 };
 
-/// States are in units of their own sigma. Of white rate noise the accelerometers feel the mean of
-/// an interval, the gimbals its end (HeldNoise).
-NoiseStep step_of(const NoiseStates& s, const NoiseModel& n, const IntervalDrive& d,
-                  bool first_half);
+/// Steps of a noise, half interval after half interval. States are in units of their own sigma. Of
+/// white rate noise the accelerometers feel the mean of an interval, the gimbals its end
+/// (HeldNoise).
+class NoiseSteps {
+ public:
+  NoiseSteps(const NoiseStates& states, const NoiseModel& noise);
+  /// Valid until the next of the same half.
+  const NoiseStep& of(const IntervalDrive& d, bool first_half);
+
+ private:
+  /// What the time says, which is seldom another than before.
+  void pass(NoiseStep& step, double time) const;
+  /// How much of a rate acts on the attitude.
+  void drive(NoiseStep& step, const IntervalDrive& d, bool first_half) const;
+
+  NoiseStates s_;
+  NoiseModel n_;
+  struct Half {
+    NoiseStep step;
+    double time = -1.0;  ///< [s] that step stands for
+  } halves_[2];
+};
 
 /// A caging: what it adds to the drift is drawn anew.
 NoiseStep caged(const NoiseStates& s);
@@ -65,13 +83,14 @@ void walk(const MeasuredRows& p, const NoiseModel& n, const NoiseStates& s, Begi
           Move&& move, Row&& row) {
   Eigen::Index k = 0;
   OverStates h(s.count);
+  NoiseSteps steps(s, n);
   for (std::size_t i = 0; i < p.drives.size(); ++i) {
     const IntervalDrive& d = p.drives[i];
     if (d.begins || d.cage) begin(d.begins ? Anew::recording : Anew::chain);
     if (s.caging >= 0 && d.cage && !d.begins) move(caged(s));
     // Half of the interval's noise before its accelerometer rows, half before its gimbal rows.
     for (const bool accelerometer : {true, false}) {
-      if (n.driven()) move(step_of(s, n, d, accelerometer));
+      if (n.driven()) move(steps.of(d, accelerometer));
       for (; k < p.rows() && p.tags[k].interval == i && p.tags[k].accelerometer() == accelerometer;
            ++k) {
         h.setZero();

@@ -9,7 +9,8 @@ struct Rung {
 
 /// The best size of something unknown: up a ladder by factors of three from `lowest`, where hardly
 /// anything is changed, until the gain falls by more than `drop` from one rung to the next. No size
-/// if none gains.
+/// if the lowest gains nothing: the likelihood of a variance that falls from zero on has its
+/// maximum there.
 template <class Gain>
 Rung climb(double lowest, int rungs, double drop, Gain&& gain) {
   Rung best;
@@ -17,7 +18,7 @@ Rung climb(double lowest, int rungs, double drop, Gain&& gain) {
   for (int k = 0; k < rungs; ++k, sigma *= 3.0) {
     const double g = gain(sigma);
     if (g > best.gain) best = {sigma, g};
-    if (g < last - drop) break;
+    if (g < last - drop || best.gain == 0.0) break;
     last = g;
   }
   return best;
