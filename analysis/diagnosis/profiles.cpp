@@ -93,10 +93,13 @@ std::vector<double> next_values(const Profile& p, double outward) {
 /// Twice the log of the likelihood that a held value loses, counted from anywhere.
 double loss_at(const Profiled& p, const MeasuredTest& test, double value) {
   const search::Fitted& after = p.model->after;
-  const double off = p.prior.sigma() > 0.0 ? (value - p.prior.mean()) / p.prior.sigma() : 0.0;
-  return off * off - equation::fit_held(p.filter, test, after.fit, p.profile.param, value,
-                                        after.problem.weight, after.noise.model)
-                         .log2;
+  const auto loss_by_prior = [&] {
+    if (p.profile.param == closure_param) return equation::loss_by_prior_of_lambda(p.prior, value);
+    return p.prior.sigma() > 0.0 ? std::pow((value - p.prior.mean()) / p.prior.sigma(), 2) : 0.0;
+  };
+  return loss_by_prior() - equation::fit_held(p.filter, test, after.fit, p.profile.param, value,
+                                              after.problem.weight, after.noise.model)
+                               .log2;
 }
 
 /// Refits at these values, spread over threads; tops and intervals with them.

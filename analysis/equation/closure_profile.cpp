@@ -30,8 +30,7 @@ class Profiler {
  private:
   Point point(double value) const {
     Point p = fit_held(filter_, test_, joint_, closure_param, value, weight_, noise_);
-    const double sigma = prior_.sigma();
-    if (sigma > 0.0) p.log2 -= std::pow((value - prior_.mean()) / sigma, 2);
+    p.log2 -= loss_by_prior_of_lambda(prior_, value);
     return p;
   }
 
@@ -45,15 +44,20 @@ class Profiler {
 
 }  // namespace
 
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
-                                              const BatchResult& joint, const VecX& weight,
-                                              const inference::NoiseModel& noise, double decisive) {
+ClosureWeighed weigh_closure(const FilterSpec& filter, const MeasuredTest& test,
+                             const BatchResult& joint, const VecX& weight,
+                             const inference::NoiseModel& noise, double decisive) {
   const ParameterEstimate* found = joint.estimate.find(closure_param);
-  if (found == nullptr) return std::nullopt;
+  if (found == nullptr) return {};
   const Profiler profiler(filter, test, joint, weight, noise);
   std::vector<Point> points = profiler.at({0.0, 1.0, found->value});
-  const double end = points[0].log2 > points[1].log2 ? 0.0 : 1.0;
-  if (std::max(points[0].log2, points[1].log2) < points[2].log2 + decisive) return std::nullopt;
+  const std::array<double, 2> at_end{points[0].log2, points[1].log2};
+  const double end = at_end[0] > at_end[1] ? 0.0 : 1.0;
+  const auto weighed = [&](double most) {
+    return ClosureWeighed{{most - at_end[0], most - at_end[1]}, {}};
+  };
+  const double better_end = std::max(at_end[0], at_end[1]);
+  if (better_end < points[2].log2 + decisive) return weighed(std::max(better_end, points[2].log2));
   const auto take = [&](const std::vector<double>& values) {
     for (Point& p : profiler.at(values)) points.push_back(std::move(p));
   };
@@ -89,10 +93,12 @@ std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const Me
       second += p * x * x;
     }
   }
-  ClosureProfile out;
-  out.value = first / mass;
-  out.sigma = std::sqrt(std::max(0.0, second / mass - out.value * out.value));
-  out.fit = std::move(profiler.at({out.value}).front().fit);
+  ClosureWeighed out = weighed(most);
+  out.profile.emplace();
+  ClosureProfile& p = *out.profile;
+  p.value = first / mass;
+  p.sigma = std::sqrt(std::max(0.0, second / mass - p.value * p.value));
+  p.fit = std::move(profiler.at({p.value}).front().fit);
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "analysis/inference/noise/noise_model.hpp"
@@ -15,6 +16,13 @@ struct ClosureProfile {
   BatchResult fit;  ///< with lambda held at the value
 };
 
+/// How probable values of lambda are.
+struct ClosureWeighed {
+  /// Twice the log by which lambda = 0 and 1 are less probable than the most probable value tried.
+  std::array<double, 2> loss_at_end{};
+  std::optional<ClosureProfile> profile;  ///< where that says more than the joint fit
+};
+
 /// lambda and the misalignments E are bilinear: a test shows (1 - lambda) E or lambda E. Where the
 /// other equation makes one of these vanish, the most probable point of all parameters together has
 /// E near zero and any lambda, though nearly all of the probability is at lambda = 1 (or 0) with E
@@ -25,10 +33,10 @@ struct ClosureProfile {
 /// is evaluated at both ends and at the joint fit; where an end is more probable than the joint fit
 /// by `decisive` (twice the log), between them and around the most probable point too, and mean and
 /// sigma are taken from it.
-/// Otherwise empty: the joint fit is as good. filter: with lambda free.
-std::optional<ClosureProfile> profile_closure(const FilterSpec& filter, const MeasuredTest& test,
-                                              const BatchResult& joint, const VecX& weight,
-                                              const inference::NoiseModel& noise,
-                                              double decisive = inference::WeighLimits::valley);
+/// Otherwise there is no profile: the joint fit is as good. filter: with lambda free.
+ClosureWeighed weigh_closure(const FilterSpec& filter, const MeasuredTest& test,
+                             const BatchResult& joint, const VecX& weight,
+                             const inference::NoiseModel& noise,
+                             double decisive = inference::WeighLimits::valley);
 
 }  // namespace drift::equation

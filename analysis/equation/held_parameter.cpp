@@ -1,5 +1,6 @@
 #include "analysis/equation/held_parameter.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "analysis/inference/marginal.hpp"
@@ -8,6 +9,15 @@
 #include "core/estimate/layout.hpp"
 
 namespace drift::equation {
+
+double loss_by_prior_of_lambda(const Prior& prior, double value) {
+  if (!(prior.sigma() > 0.0)) return 0.0;
+  const Prior& library = TermLibrary::specs[closure_param].prior;
+  const bool own = prior.mean() == library.mean() && prior.sigma() == library.sigma();
+  const double z = (value - prior.mean()) / prior.sigma();
+  constexpr double of_an_end = 3.0;  // square of half a width in sigmas of equal chances
+  return own ? std::max(0.0, z * z - of_an_end) : z * z;
+}
 
 HeldFit fit_held(const FilterSpec& filter, const MeasuredTest& test, const BatchResult& near,
                  std::size_t param, double value, const VecX& weight,

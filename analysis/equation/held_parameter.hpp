@@ -16,6 +16,11 @@ struct HeldFit {
   BatchResult fit;
 };
 
+/// Twice the log by which the prior of lambda holds a value less probable than those it holds most
+/// probable. The library's stands for equal chances of all from one equation to the other, which a
+/// fit knows by mean and sigma alone: between the two it has no say. Another one is as it is.
+double loss_by_prior_of_lambda(const Prior& prior, double value);
+
 /// near: a fit of the filter, from which this one starts with `param` put at `value`; that of
 /// lambda starts from the prior too, and the better one is taken. weight: of the rows, as in
 /// LinearProblem.

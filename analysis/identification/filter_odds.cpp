@@ -28,6 +28,7 @@ std::optional<double> log_evidence(const mc::Study& study, const Identification&
   if (&judged(spec, run) != &fit || fit.status != EstimateStatus::ok ||
       fit.covariance.size() == 0 || has_outliers(spec.model().terms))
     return std::nullopt;
+  if (std::isfinite(fit.log_evidence)) return fit.log_evidence;
   VecX off(static_cast<Eigen::Index>(fit.parameters.size()));
   for (Eigen::Index k = 0; k < off.size(); ++k) {
     const ParameterEstimate& p = fit.parameters[static_cast<std::size_t>(k)];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/inference/misalignments.hpp"
 #include "core/base/check.hpp"
 #include "core/estimate/closure/closure_posterior.hpp"
 #include "core/estimate/starts.hpp"
@@ -27,6 +28,15 @@ bool ended_lower(const FilterSpec& filter, const EstimateResult& ekf, const Esti
   constexpr double clearly = 4.0;  // of chi-square: two sigma
   return ekf.status == EstimateStatus::ok && ekf.measured == fit.measured &&
          !drift_varies(filter) && ekf.statistic < fit.statistic - clearly;
+}
+
+/// The estimate over all of lambda, with an evidence that compares to other filters'.
+EstimateResult whole_estimate(const FilterSpec& filter, const MeasuredTest& test,
+                              const BatchResult& fit) {
+  const Layout layout = make_layout(filter);
+  return over_closure(filter, test, fit, [&](const VecX& x, const MatX& covariance) {
+    return inference::log_gain_of_misalignments(layout, x, covariance);
+  });
 }
 
 void fit_by_batch(FilterRun& run, const FilterSpec& filter, const MeasuredTest& test,
@@ -77,7 +87,7 @@ void take_over_closure(const mc::Study& study, const MeasuredTest& test,
       alike.size(),
       [&](std::size_t g) {
         const FilterRun& first = runs[alike[g].front()];
-        return over_closure(study.filters[first.filter], test, first.batch);
+        return whole_estimate(study.filters[first.filter], test, first.batch);
       },
       threads);
   for (std::size_t g = 0; g < alike.size(); ++g)
@@ -121,7 +131,7 @@ FilterRun estimate_in_the_loop(const mc::Study& study, const Job& job, Timeline 
   run.history = ekf.history();
   const MeasuredTest test{timeline, study.readout, sim.measured};
   fit_by_batch(run, filter, test, start);
-  run.batch.estimate = over_closure(filter, test, run.batch);
+  run.batch.estimate = whole_estimate(filter, test, run.batch);
   return run;
 }
 

@@ -28,7 +28,8 @@ double log_gain_of_misalignments(const Layout& layout, const VecX& x, const MatX
   if (const auto at = std::ranges::find(layout.params, closure_param); at != layout.params.end()) {
     const auto lambda = at - layout.params.begin();
     const VecX with_lambda = of_all(rows, lambda);
-    covariance -= with_lambda * with_lambda.transpose() / of_all(lambda, lambda);
+    if (const double own = of_all(lambda, lambda); own > 0.0)  // else it is held
+      covariance -= with_lambda * with_lambda.transpose() / own;
   }
   return log_gain_of_sizes_made_small(x(rows), covariance);
 }

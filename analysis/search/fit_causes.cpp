@@ -85,8 +85,10 @@ BatchResult fit_from_both_ends(const Fitted& nominal, const FilterSpec& filter,
     held.priors[closure_param] = fixed(end);
     Theta from = starts[k / 2];
     from[closure_param] = end;
-    BatchResult fit = fit_batch_from(held, test, from, nominal.fit.psi0_l,
-                                     {.result = BatchOptions::Result::estimates});
+    // Another fit begins there: a step of a hundredth of a sigma is as good as none.
+    BatchResult fit =
+        fit_batch_from(held, test, from, nominal.fit.psi0_l,
+                       {.tolerance = 1e-2, .result = BatchOptions::Result::estimates});
     return std::pair(theta_of(held, fit), std::move(fit));
   });
   auto fits = mc::run_campaign(2, [&](std::size_t end) {
@@ -109,8 +111,7 @@ BatchResult CauseFit::with_closure_sigma(BatchResult given) const {
 
 CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
                     const std::vector<Choice>& choices, const inference::NoiseModel& noise) {
-  CauseFit out{
-      with_causes(nominal.filter, nominal.set, choices), {}, expect(nominal, choices), 0.0};
+  CauseFit out{with_causes(nominal.filter, nominal.set, choices), {}, expect(nominal, choices)};
   const auto fit_from = [&](const Theta& from, const BatchResult& beside) {
     return fit_batch_from(out.filter, test, from, beside.psi0_l);
   };
@@ -119,8 +120,11 @@ CauseFit fit_causes(const Fitted& nominal, const MeasuredTest& test,
     return out;
   }
   out.fit = fit_from_both_ends(nominal, out.filter, test, out.expected.theta);
-  if (const auto profile =
-          equation::profile_closure(out.filter, test, out.fit, nominal.problem.weight, noise)) {
+  const equation::ClosureWeighed weighed =
+      equation::weigh_closure(out.filter, test, out.fit, nominal.problem.weight, noise);
+  out.loss_of_nominal =
+      weighed.loss_at_end[value_left_out(closure_param, nominal.filter.coupling) < 0.5 ? 0 : 1];
+  if (const auto& profile = weighed.profile) {
     // Free again it would go back to where the joint fit has it: it is all but held, and the
     // evidence of that one value stands for what all of them have together.
     constexpr double held = 1e-3;

@@ -19,6 +19,9 @@ struct CauseFit {
   /// Of lambda where its value is that of the profile and all but held; else 0.
   double closure_sigma = 0.0;
   double narrowed = 0.0;  ///< what the log evidence of that value has too much
+  /// Twice the log by which the nominal lambda is less probable than the most probable one; of
+  /// lambda among the causes.
+  double loss_of_nominal = 0.0;
 
   /// A fit of `filter` with that sigma of lambda.
   BatchResult with_closure_sigma(BatchResult given) const;

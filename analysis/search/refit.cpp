@@ -141,11 +141,9 @@ double loss_without(const std::vector<std::size_t>& settings, const Refit& r) {
   return loss;
 }
 
-/// Another equation must be another one: an interval that holds the nominal weight names nothing.
-bool is_another_equation(Coupling nominal, const BatchResult& fit) {
-  const ParameterEstimate* p = fit.estimate.find(closure_param);
-  return p == nullptr || std::abs(p->value - value_left_out(closure_param, nominal)) >
-                             WeighLimits::other_lambda * p->sigma;
+/// Another equation must be another one: where the nominal weight may be, nothing is named.
+bool is_another_equation(const CauseFit& causes) {
+  return causes.loss_of_nominal > std::pow(WeighLimits::other_lambda, 2);
 }
 
 /// What a refit is made of and compared with.
@@ -183,8 +181,7 @@ Refit scored(const std::vector<Choice>& choices, const FilterSpec& filter, const
 /// scores are asked for from here on.
 void judge(Refit& r, const CauseFit& causes, const Beside& b) {
   r.sign_agrees = signs_agree(causes.expected, r.after.fit);
-  r.nameable = !causes.expected.lambda_among_them ||
-               is_another_equation(b.nominal.filter.coupling, r.after.fit);
+  r.nameable = !causes.expected.lambda_among_them || is_another_equation(causes);
   if (r.choices.size() > 1 && !all_needed(b.nominal.set, r))
     r.excess = std::numeric_limits<double>::infinity();
   if (r.tolerable()) {

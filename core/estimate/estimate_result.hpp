@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct EstimateResult {
   std::size_t measured = 0;  ///< scalars used; `statistic` is chi-square of as many degrees when
                              ///< model, noise and priors are right
   int iterations = 0;        ///< batch alone
+  /// Where lambda was integrated over (over_closure()): log of the integral of exp(-cost / 2) times
+  /// the root of the determinant of the others' covariance, in prior sigmas, over its prior. NaN
+  /// where it was not: then that is -statistic / 2 + log det(covariance) / 2.
+  double log_evidence = std::numeric_limits<double>::quiet_NaN();
   /// The noise of some readings is an upper bound (Readout): `statistic` may be far less.
   bool noise_at_most = false;
 

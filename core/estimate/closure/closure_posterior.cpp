@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/estimate/descent/descent.hpp"
 #include "core/estimate/triangle.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct Slice {
   double value;           ///< of lambda, in prior sigmas
   double log;             ///< of its density, up to a constant
+  double attitudes;       ///< what the attitudes' determinants have of that
   double cost;            ///< of the fit there
   VecX x;                 ///< mean of all parameters there, scaled
   MatX P;                 ///< covariance of the others there
@@ -44,8 +46,21 @@ class ClosurePosterior {
     problem_.whiten_at(x, psi);
     add(x[lambda_], x, psi);
     cost_at_fit_ = slices_.front().cost;
+    attitudes_at_fit_ = slices_.front().attitudes;
     look_everywhere(std::sqrt(fit.estimate.covariance(lambda_, lambda_)));
     refine();
+  }
+
+  /// EstimateResult::log_evidence. The attitudes count by how they differ from those of the fit, as
+  /// of a fit at one lambda they do not count at all.
+  double log_evidence(const LogGain& log_gain) const {
+    const VecX mass = masses();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < slices_.size(); ++k)
+      if (mass[static_cast<Eigen::Index>(k)] > 0.0)
+        sum += mass[static_cast<Eigen::Index>(k)] *
+               std::exp(log_gain ? log_gain(slices_[k].x, slices_[k].P) : 0.0);
+    return top_ - attitudes_at_fit_ + std::log(sum / std::sqrt(2.0 * std::numbers::pi));
   }
 
   struct Moments {
@@ -162,13 +177,13 @@ class ClosurePosterior {
     prior.leftCols(n).setIdentity();
     const MatX R = triangle(stacked(data, prior)).topLeftCorner(n, n);
     const MatX R_inv = R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n));
-    Slice s{value,
-            -0.5 * at.cost - R.diagonal().array().abs().log().sum(),
-            at.cost,
-            at.x,
-            R_inv * R_inv.transpose(),
+    double attitudes = 0.0;
+    for (const MatX& top : tops)
+      attitudes -= top.leftCols<3>().diagonal().array().abs().log().sum();
+    Slice s{value,     attitudes - 0.5 * at.cost - R.diagonal().array().abs().log().sum(),
+            attitudes, at.cost,
+            at.x,      R_inv * R_inv.transpose(),
             at.psi};
-    for (const MatX& top : tops) s.log -= top.leftCols<3>().diagonal().array().abs().log().sum();
     s.P.row(lambda_).setZero();
     s.P.col(lambda_).setZero();
     return s;
@@ -179,19 +194,20 @@ class ClosurePosterior {
   Eigen::Index lambda_;
   std::vector<Slice> slices_;  ///< by value
   double top_ = -std::numeric_limits<double>::infinity();
-  double cost_at_fit_ = 0.0;
+  double cost_at_fit_ = 0.0, attitudes_at_fit_ = 0.0;
 };
 
 }  // namespace
 
 EstimateResult over_closure(const FilterSpec& filter, const MeasuredTest& test,
-                            const BatchResult& fit) {
+                            const BatchResult& fit, const LogGain& log_gain) {
   EstimateResult out = fit.estimate;
   if (out.status != EstimateStatus::ok || out.find(closure_param) == nullptr) return out;
   const ClosurePosterior posterior(filter, test, fit);
   const auto [mean, P] = posterior.moments();
   out.covariance = P;
   out.statistic -= posterior.better_than_fit();
+  out.log_evidence = posterior.log_evidence(log_gain);
   for (std::size_t k = 0; k < out.parameters.size(); ++k) {
     ParameterEstimate& p = out.parameters[k];
     const auto i = static_cast<Eigen::Index>(k);
@@ -222,6 +238,7 @@ bool ended_at_one_point(const BatchResult& a, const BatchResult& b) {
 EstimateResult with_moments_of(const EstimateResult& over, const BatchResult& fit) {
   EstimateResult out = fit.estimate;
   out.covariance = over.covariance;
+  out.log_evidence = over.log_evidence;
   out.statistic = std::min(out.statistic, over.statistic);
   for (std::size_t k = 0; k < out.parameters.size(); ++k) {
     out.parameters[k].value = over.parameters[k].value;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "core/estimate/batch.hpp"
 
 namespace drift {
@@ -16,9 +18,12 @@ namespace drift {
 /// The
 /// statistic is that of the deepest point that is found on the way, should the fit have ended in a
 /// side valley. fit: whole, of this filter and test. Unchanged where lambda is no state or the fit
-/// did not converge.
+/// did not converge. log_gain: what is to be added to the log evidence at one lambda, of all
+/// parameters there and the covariance of the others (lambda's own is zero), both scaled; of the
+/// density of lambda it is no part.
+using LogGain = std::function<double(const VecX& x, const MatX& covariance)>;
 EstimateResult over_closure(const FilterSpec& filter, const MeasuredTest& test,
-                            const BatchResult& fit);
+                            const BatchResult& fit, const LogGain& log_gain = {});
 
 /// Whether two fits of one filter and one test ended at one point, as far as a fit tells: both are
 /// whole and converged with the same samples, and no further apart than two that stand still

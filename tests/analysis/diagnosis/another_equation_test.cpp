@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <variant>
 
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/inference/misalignments.hpp"
@@ -151,6 +152,24 @@ TEST(AnotherEquation, HasALambdaWithinItsInterval) {
     EXPECT_LT(lambda.low(), lambda.value);
     EXPECT_GT(lambda.high(), lambda.value);
     EXPECT_LT(std::abs(lambda.value), 4.0 * lambda.sigma);  // eq. (5)
+  }
+}
+
+TEST(AnotherEquation, IsSettledWhereTheTestExcludesTheNominalOneAlone) {
+  // In free drift with short dwells any lambda does as well as 0 up to where misalignments would be
+  // too large: its sigma is as good as that of its prior, and eq. (6) is out of the question.
+  mc::Study study = study_of(twelve);
+  study.filters.front().coupling = Coupling::eq6;
+  study.plan.positions.resize(6);
+  for (const std::uint64_t run : {1u, 2u, 3u, 4u}) {
+    const Diagnosis d = diagnosed(study, 5, run);
+    ASSERT_FALSE(d.causes.empty());
+    ASSERT_EQ(d.causes.front().term, "frame_closure") << report::sentence(d);
+    for (const Remark& r : d.remarks)
+      EXPECT_FALSE(std::holds_alternative<remark::LambdaNotSettled>(r)) << report::sentence(d);
+    const search::CauseParameter& lambda = d.causes.front().parameters.front();
+    EXPECT_LT(lambda.low(), 0.0) << report::sentence(d);
+    EXPECT_LT(lambda.high(), 1.0);
   }
 }
 

@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 #include "analysis/report/identify/judgement.hpp"
 
 namespace drift::filter_odds_test {
@@ -120,6 +124,30 @@ TEST(FilterOdds, TwoThatSayTheSameAreBelievedTogetherAgainstAThird) {
   EXPECT_NEAR(two->log_odds, std::log(2.0) + i.evidence(0) - i.evidence(1), 1e-6);
   const std::string verdict = report::identification_in_brief(i.study, i.id).verdict;
   EXPECT_EQ(verdict.find("Believe a and a2: the residuals are what they expect"), 0u) << verdict;
+}
+
+TEST(FilterOdds, AFreeLambdaIsAsProbableAsWhatItMayBeIsOnAverage) {
+  // The test shows eq. (5), and as well any lambda with misalignments that are larger by as much:
+  // a bent valley, on which the covariance of all parameters together says nothing of its volume.
+  constexpr std::string_view large = R"([truth.parameters]
+eta = "112 arcsec"
+xi = "90 arcsec"
+)";
+  const Identified i{study("lambda", "eq5", "", "", large)};
+  mc::Study s = study("lambda", "eq5", "", "", large);
+  const Prior prior = s.filters.front().priors[closure_param];
+  // Mean over the prior as a fit knows it, by the trapezoid rule.
+  constexpr double step = 0.125;
+  double sum = 0.0, most = -std::numeric_limits<double>::infinity();
+  for (double lambda = -0.5; lambda < 1.51; lambda += step) {
+    s.filters.front().priors[closure_param] = fixed(lambda);
+    const double held = Identified{s}.evidence(0), z = (lambda - prior.mean()) / prior.sigma();
+    most = std::max(most, held);
+    sum += std::exp(held - i.evidence(1) - 0.5 * z * z) * step / prior.sigma();
+  }
+  const double mean = i.evidence(1) + std::log(sum / std::sqrt(2.0 * std::numbers::pi));
+  EXPECT_LT(i.evidence(0), most);
+  EXPECT_NEAR(i.evidence(0), mean, 0.25);  // slices hold a sixth of the mass each at most
 }
 
 TEST(FilterOdds, WhatTheAttitudesCostIsNotCompared) {
