@@ -18,6 +18,7 @@
 #include "core/recording/recording_output.hpp"
 #include "core/recording/rows/quality_card.hpp"
 #include "core/recording/rows/row_remarks.hpp"
+#include "core/recording/rows/shared_noise.hpp"
 #include "core/recording/rows/shared_rows.hpp"
 
 namespace drift::cli {
@@ -171,6 +172,14 @@ void refuse_copies(const Recording& earlier, const std::string& earlier_path,
                     "these rows out of one",
                     path, rows_in_words(later, shared->second, shared->count), earlier_path,
                     rows_in_words(earlier, shared->first, shared->count)));
+  if (const auto shared = shared_noise(earlier, later))
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("{}: its noise is that of {}: of {} readings that scatter at times of both "
+                    "{:.0f} % do so to the same side, of two tests some 50 % (expected recordings "
+                    "of different tests: other rows of one log, or means of them, are no further "
+                    "evidence). Name one of them; simulated ones need a --seed each",
+                    path, earlier_path, shared->readings, 100.0 * shared->alike));
 }
 
 }  // namespace
