@@ -8,6 +8,7 @@
 
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/still_to_check.hpp"
+#include "analysis/preparation/own_names.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/units.hpp"
@@ -124,14 +125,30 @@ QualityCard card_of(const mc::Study& study, const Recording& recording) {
 }
 
 /// What looks odd is told at once, what weighs most of it.
-void tell_remarks(const QualityCard& card) {
+void tell_remarks(const QualityCard& card, const mc::Study& study,
+                  const std::vector<std::string>& paths) {
   constexpr std::size_t most = 3;
-  const std::vector<std::string> remarks = card.remarks.texts();
-  for (std::size_t k = 0; k < std::min(remarks.size(), most); ++k)
-    say("note: {}: {}\n", card.file, remarks[k]);
+  std::vector<std::string> remarks = card.remarks.texts();
+  for (std::string& text : remarks) text = fmt::format("{}: {}", card.file, text);
+  preparation::correct_alone(remarks, study, paths);
+  for (std::size_t k = 0; k < std::min(remarks.size(), most); ++k) say("note: {}\n", remarks[k]);
   if (remarks.size() > most)
     say("note: {}: {} more remark{}; --full prints them\n", card.file, remarks.size() - most,
         report::plural(remarks.size() - most));
+}
+
+/// One of the files, which the study reads.
+Recording read_one(const mc::Study& study, const std::string& path,
+                   const std::vector<std::string>& paths) {
+  try {
+    Recording r = read_recording(path, study.recording, study.kind, study.site.gravity);
+    check_time_unit(study, r);
+    return r;
+  } catch (const InputError& error) {
+    std::vector<std::string> messages = error.messages();
+    preparation::correct_alone(messages, study, paths);
+    throw InputError(error.code(), std::move(messages));
+  }
 }
 
 /// Whether both hold the same readings, whatever their files look like: to a millionth of the
@@ -203,14 +220,13 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   say("{}", still_to_check_text(study));
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
-    recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
-    check_time_unit(study, recordings.back());
+    recordings.push_back(read_one(study, path, paths));
     tell_assumed_gravity(study, recordings.back());
     tell_other_latitude(study, recordings.back(), path);
     tell_other_gravity(study, recordings.back());
     for (std::size_t before = 0; before + 1 < recordings.size(); ++before)
       refuse_copies(recordings[before], paths[before], recordings.back(), path);
-    tell_remarks(card_of(study, recordings.back()));
+    tell_remarks(card_of(study, recordings.back()), study, paths);
   }
   return recordings;
 }

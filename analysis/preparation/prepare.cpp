@@ -75,6 +75,31 @@ std::set<int> positions_of(const Recording& r) {
   return all;
 }
 
+std::vector<std::string> sources_of(const std::vector<Recording>& recordings) {
+  std::vector<std::string> sources;
+  for (const Recording& r : recordings) sources.push_back(r.source);
+  return sources;
+}
+
+/// Refuses recordings of which something is wrong.
+void refuse_if(std::vector<std::string> wrong, const Prepared& p) {
+  if (wrong.empty()) return;
+  correct_alone(wrong, p.study, sources_of(p.recordings));
+  throw InputError(ExitCode::recording, std::move(wrong));
+}
+
+/// Of the first gimbal that is a constant off, or the heading; or "".
+std::string off_zero_in(const Prepared& p) {
+  for (const Recording& r : p.recordings)
+    for (const auto off_zero : {gimbal_off_zero, heading_off_zero})
+      if (std::string text = off_zero(p.study, r); !text.empty()) {
+        std::vector<std::string> texts{in_own_names(std::move(text), p.study.recording)};
+        correct_alone(texts, p.study, sources_of(p.recordings));
+        return texts.front();
+      }
+  return "";
+}
+
 }  // namespace
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
@@ -109,7 +134,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   take_rows(p, most_rows, wrong);
   take_rounding(rounding, p.study.readout, p.remarks);
   take_smooth(stepped, p.recordings, p.remarks);
-  if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
+  refuse_if(wrong, p);
   for (const Recording& r : p.recordings) {
     try {
       check_plan(p.study, r, p.remarks, wrong);
@@ -124,16 +149,14 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
           "absent, empty or stuck (expected at least one). Check the export",
           name_of(r)));
   }
-  if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
+  refuse_if(wrong, p);
   for (Recording& r : p.recordings) {
     take_usual_branch(r);
     if (std::string text = gimbal_of_wrong_sign(p.study, r); !text.empty())
       wrong.push_back(in_own_names(std::move(text), study.recording));
   }
-  if (!wrong.empty()) throw InputError(ExitCode::recording, std::move(wrong));
-  for (const Recording& r : p.recordings)
-    for (const auto off_zero : {gimbal_off_zero, heading_off_zero})
-      if (p.off_zero.empty()) p.off_zero = in_own_names(off_zero(p.study, r), study.recording);
+  refuse_if(wrong, p);
+  p.off_zero = off_zero_in(p);
   if (positions.size() < 2)
     p.remarks.emplace_back(
         "one position only: nothing can be held out, so no cause can be confirmed, and most causes "
@@ -141,6 +164,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   for (int k = 1; k <= static_cast<int>(study.plan.positions.size()); ++k)
     if (!positions.contains(k)) p.absent_positions.push_back(k);
   p.unused = leave_out_unknown(p.study, p.recordings, gaps, following, p.remarks);
+  correct_alone(p.remarks, study, sources_of(p.recordings));
   return p;
 }
 
