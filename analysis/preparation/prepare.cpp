@@ -20,6 +20,7 @@
 #include "analysis/preparation/plan_check.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "analysis/preparation/rounding_noise.hpp"
+#include "analysis/preparation/rows/parts_of_one.hpp"
 #include "analysis/preparation/rows/take_rows.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/plan_rows.hpp"
@@ -106,7 +107,7 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
                  std::size_t most_rows, Following following) {
   mc::require_own_terms(study);
   require_recordings(recordings);
-  Prepared p{study, recordings, {}};
+  Prepared p{study, recordings, parts_of_one(recordings)};
   std::vector<std::string> wrong;
   std::set<int> positions;
   for (Recording& r : p.recordings) {
