@@ -58,11 +58,11 @@ struct Agreement {
 
 Agreement agreement_of(const std::vector<signed char>& u, const std::vector<signed char>& v) {
   const std::size_t n = u.size();
-  std::vector<signed char> round = v;
-  round.insert(round.end(), v.begin(), v.end());
+  std::vector<signed char> twice = v;
+  twice.insert(twice.end(), v.begin(), v.end());
   const auto sum_at = [&](std::size_t shift) {
     int sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += u[i] * round[i + shift];
+    for (std::size_t i = 0; i < n; ++i) sum += u[i] * twice[i + shift];
     return static_cast<double>(sum);
   };
   Agreement found;
