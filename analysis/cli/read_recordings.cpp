@@ -8,6 +8,7 @@
 
 #include "analysis/cli/print.hpp"
 #include "analysis/cli/still_to_check.hpp"
+#include "analysis/preparation/own_names.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/check.hpp"
 #include "core/base/units.hpp"
@@ -18,6 +19,7 @@
 #include "core/recording/recording_output.hpp"
 #include "core/recording/rows/quality_card.hpp"
 #include "core/recording/rows/row_remarks.hpp"
+#include "core/recording/rows/shared_noise.hpp"
 #include "core/recording/rows/shared_rows.hpp"
 
 namespace drift::cli {
@@ -123,14 +125,30 @@ QualityCard card_of(const mc::Study& study, const Recording& recording) {
 }
 
 /// What looks odd is told at once, what weighs most of it.
-void tell_remarks(const QualityCard& card) {
+void tell_remarks(const QualityCard& card, const mc::Study& study,
+                  const std::vector<std::string>& paths) {
   constexpr std::size_t most = 3;
-  const std::vector<std::string> remarks = card.remarks.texts();
-  for (std::size_t k = 0; k < std::min(remarks.size(), most); ++k)
-    say("note: {}: {}\n", card.file, remarks[k]);
+  std::vector<std::string> remarks = card.remarks.texts();
+  for (std::string& text : remarks) text = fmt::format("{}: {}", card.file, text);
+  preparation::correct_alone(remarks, study, paths);
+  for (std::size_t k = 0; k < std::min(remarks.size(), most); ++k) say("note: {}\n", remarks[k]);
   if (remarks.size() > most)
     say("note: {}: {} more remark{}; --full prints them\n", card.file, remarks.size() - most,
         report::plural(remarks.size() - most));
+}
+
+/// One of the files, which the study reads.
+Recording read_one(const mc::Study& study, const std::string& path,
+                   const std::vector<std::string>& paths) {
+  try {
+    Recording r = read_recording(path, study.recording, study.kind, study.site.gravity);
+    check_time_unit(study, r);
+    return r;
+  } catch (const InputError& error) {
+    std::vector<std::string> messages = error.messages();
+    preparation::correct_alone(messages, study, paths);
+    throw InputError(error.code(), std::move(messages));
+  }
 }
 
 /// Whether both hold the same readings, whatever their files look like: to a millionth of the
@@ -171,6 +189,14 @@ void refuse_copies(const Recording& earlier, const std::string& earlier_path,
                     "these rows out of one",
                     path, rows_in_words(later, shared->second, shared->count), earlier_path,
                     rows_in_words(earlier, shared->first, shared->count)));
+  if (const auto shared = shared_noise(earlier, later))
+    throw InputError(
+        ExitCode::usage,
+        fmt::format("{}: its noise is that of {}: of {} readings that scatter at times of both "
+                    "{:.0f} % do so to the same side, of two tests some 50 % (expected recordings "
+                    "of different tests: other rows of one log, or means of them, are no further "
+                    "evidence). Name one of them; simulated ones need a --seed each",
+                    path, earlier_path, shared->readings, 100.0 * shared->alike));
 }
 
 }  // namespace
@@ -194,14 +220,13 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   say("{}", still_to_check_text(study));
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
-    recordings.push_back(read_recording(path, study.recording, study.kind, study.site.gravity));
-    check_time_unit(study, recordings.back());
+    recordings.push_back(read_one(study, path, paths));
     tell_assumed_gravity(study, recordings.back());
     tell_other_latitude(study, recordings.back(), path);
     tell_other_gravity(study, recordings.back());
     for (std::size_t before = 0; before + 1 < recordings.size(); ++before)
       refuse_copies(recordings[before], paths[before], recordings.back(), path);
-    tell_remarks(card_of(study, recordings.back()));
+    tell_remarks(card_of(study, recordings.back()), study, paths);
   }
   return recordings;
 }

@@ -19,19 +19,22 @@
 #include "core/plan/plan_memory.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/recording_problems.hpp"
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 
 namespace drift {
 namespace {
 
-constexpr std::size_t most_messages = 20;
-
 /// Walks the rows of a recording and turns them into intervals; collects what does not fit.
 class Reader {
  public:
   Reader(const Recording& recording, const TestPlan& plan, const Site& site)
-      : rec_(recording), plan_(plan), site_(site), passages_(plan_passages(plan, site)) {
+      : rec_(recording),
+        plan_(plan),
+        site_(site),
+        passages_(plan_passages(plan, site)),
+        problems_(recording.source.empty() ? "recording" : recording.source) {
     heading_ = rec_.find("case_heading");
     phase_ = rec_.find("phase");
     for (int a = 0; a < 3; ++a) cmd_[a] = rec_.find(std::string("cmd_") + "xyz"[a]);
@@ -43,24 +46,22 @@ class Reader {
     timeline_.site = site_;
     timeline_.positions = static_cast<int>(plan_.positions.size());
     check_count();
-    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    problems_.throw_if_any();
     check_positions();
-    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    problems_.throw_if_any();
     for (std::size_t row = 0; row < rec_.rows(); ++row) add(row);
-    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    problems_.throw_if_any();
     tell_loop();
     place_nodes(timeline_, chain_start_);
     take_covariates();
     for (const RowMistake& m : attitude_mistakes(rec_, plan_, timeline_)) complain(m.row, m.text);
-    if (!errors_.empty()) throw InputError(ExitCode::recording, errors_);
+    problems_.throw_if_any();
     return std::move(timeline_);
   }
 
  private:
   void complain(std::size_t row, const std::string& what) {
-    if (errors_.size() < most_messages)
-      errors_.push_back(fmt::format("{}:{}: {}", rec_.source.empty() ? "recording" : rec_.source,
-                                    row < rec_.lines.size() ? rec_.lines[row] : row + 1, what));
+    problems_.add_in_line(row < rec_.lines.size() ? rec_.lines[row] : row + 1, what);
   }
 
   /// Positions that were counted must be those of the plan: else every number may be another's.
@@ -276,14 +277,13 @@ class Reader {
   const TestPlan& plan_;
   const Site& site_;
   std::vector<Passage> passages_;
-  const Channel* heading_ = nullptr;
-  const Channel* phase_ = nullptr;
+  const Channel *heading_ = nullptr, *phase_ = nullptr;
   std::array<const Channel*, 3> cmd_{};
   std::array<const Channel*, 6> loop_{};
   Timeline timeline_;
   std::vector<Mat3> chain_start_;
   double heading_now_ = 0.0;
-  std::vector<std::string> errors_;
+  Problems problems_;
 };
 
 }  // namespace

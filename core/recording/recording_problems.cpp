@@ -22,22 +22,36 @@ bool starts_with_line(std::string_view where) {
 
 }  // namespace
 
+bool Problems::counted(std::string_view kind, std::string_view line) {
+  const auto known = std::ranges::find(messages_, kind, &Message::kind);
+  if (known == messages_.end()) return false;
+  ++known->alike;
+  known->last_where = line;
+  return true;
+}
+
+void Problems::add_in_line(std::size_t line, std::string_view sentences) {
+  const std::string kind = fmt::format("\n\n\n{}", sentences);
+  if (counted(kind, std::to_string(line))) return;
+  if (full())
+    ++more_;
+  else
+    messages_.push_back(
+        {kind, fmt::format("{}:{}", file_, line), fmt::format(": {}", sentences), 0, {}, 0});
+}
+
 void Problems::add(std::string_view where, std::string_view wrong, std::string_view expected,
                    std::string_view fix) {
   const bool row = starts_with_line(where);
   std::string kind;  // rows of a column that lack the same, columns with the same mistake
   if (row) kind = fmt::format("{}\n{}\n{}", column_of(where), expected, fix);
   if (!row && !where.empty()) kind = fmt::format("{}\n{}\n{}", wrong, expected, fix);
+  if (row && counted(kind, where.substr(0, where.find(':')))) return;
   const auto known =
-      kind.empty() ? messages_.end() : std::ranges::find(messages_, kind, &Message::kind);
+      row || kind.empty() ? messages_.end() : std::ranges::find(messages_, kind, &Message::kind);
   if (known != messages_.end()) {
-    if (row) {
-      ++known->alike;
-      known->last_where = where.substr(0, where.find(':'));
-    } else {
-      known->where += fmt::format(", {}", where);
-      ++known->columns;
-    }
+    known->where += fmt::format(", {}", where);
+    ++known->columns;
     return;
   }
   if (full()) {

@@ -23,6 +23,8 @@ class Problems {
   /// "file:where: wrong (expected ...). Fix". `where` is "line:column", "line", "column" or empty.
   void add(std::string_view where, std::string_view wrong, std::string_view expected,
            std::string_view fix);
+  /// "file:line: sentences". The same sentences about many rows are one message with a count.
+  void add_in_line(std::size_t line, std::string_view sentences);
   /// A complete message, as another Problems made it.
   void add(std::string message);
   /// Problems found elsewhere beyond their own cap.
@@ -39,6 +41,9 @@ class Problems {
   void throw_if_any() const;
 
  private:
+  /// Counts one more row of a kind; false if there is none yet.
+  bool counted(std::string_view kind, std::string_view line);
+
   struct Message {
     std::string kind;  ///< what messages of the same kind have in common; empty: nothing
     std::string where, text;

@@ -132,8 +132,10 @@ Command diagnose_command() {
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
-    app.add_option("recordings", a.recordings,
-                   "recordings of the study's plan (.csv, .txt, .h5, .mat)")
+    app.add_option(
+           "recordings", a.recordings,
+           "recordings of the study's plan (.csv, .txt, .h5, .mat); of a strapdown study one "
+           "alone")
         ->required();
     add_output(app, a.output, "folder for diagnosis.json, report, pictures and patched.toml");
     a.advise_option =

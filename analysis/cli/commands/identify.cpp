@@ -78,8 +78,10 @@ Command identify_command() {
   };
   const auto add = [](CLI::App& app, Arguments& a) {
     add_study(app, a.study);
-    app.add_option("recordings", a.recordings,
-                   "recordings (.csv, .txt, .h5, .mat); none: simulated from [truth]");
+    app.add_option(
+        "recordings", a.recordings,
+        "recordings (.csv, .txt, .h5, .mat) of one unit; of a strapdown study one alone; "
+        "none: simulated from [truth]");
     add_output(app, a.output, "folder for tables, pictures and report");
     app.add_option("--run", a.run, "run number of the simulated recording")
         ->check(whole(0, last_run));

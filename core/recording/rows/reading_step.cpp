@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/recording/rows/repeated_rows.hpp"
+
 namespace drift {
 namespace {
 
@@ -57,6 +59,21 @@ std::optional<double> reading_step(const Channel& channel, const Channel* positi
   }
   if (2 * small < bends || (different < fewest_values && bends < fewest_bends)) return std::nullopt;
   return step;
+}
+
+double shown_step(const Recording& recording, const Channel& channel) {
+  std::vector<double> sorted = channel.values;
+  std::erase_if(sorted, [](double x) { return std::isnan(x); });
+  std::ranges::sort(sorted);
+  return std::max({decimal_step(channel), step_between(sorted),
+                   reading_step(channel, recording.find("position")).value_or(0.0)});
+}
+
+double largest_reading(const Channel& channel) {
+  double largest = 0.0;
+  for (const double x : channel.values)
+    if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
+  return largest;
 }
 
 }  // namespace drift

@@ -20,13 +20,6 @@ constexpr std::size_t most_alike = 64;  // rows of the same readings that a row 
 constexpr std::size_t probed = 4;  // one noisy row of so many: a stretch is found by any of its own
 constexpr std::size_t most_keyed = 3;  // channels by which rows are looked up
 
-double largest_of(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double x : values)
-    if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
-  return largest;
-}
-
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -34,24 +27,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The step of readings that shows, as written or as read out; 0: none.
-double step_of(const Recording& r, const Channel& c) {
-  std::vector<double> sorted = c.values;
-  std::erase_if(sorted, [](double x) { return std::isnan(x); });
-  std::ranges::sort(sorted);
-  return std::max(
-      {decimal_step(c), step_between(sorted), reading_step(c, r.find("position")).value_or(0.0)});
-}
-
-double third_difference(const std::vector<double>& x, std::size_t i) {
-  return x[i] - 3.0 * x[i - 1] + 3.0 * x[i - 2] - x[i - 3];
-}
-
 /// A channel that both recordings have.
 struct Both {
   const std::vector<double>*a, *b;
   double largest = 0.0;  ///< reading of the channels of its triple
-  double step = 0.0;     ///< step_of() both
+  double step = 0.0;     ///< shown_step() of both
 };
 
 std::vector<Both> in_both(const Recording& a, const Recording& b,
@@ -62,8 +42,9 @@ std::vector<Both> in_both(const Recording& a, const Recording& b,
     double largest = 0.0;
     for (const auto name : triple.names)
       if (const Channel* p = a.find(name), *q = b.find(name); p && q) {
-        some.push_back({&p->values, &q->values, 0.0, std::max(step_of(a, *p), step_of(b, *q))});
-        largest = std::max({largest, largest_of(p->values), largest_of(q->values)});
+        some.push_back(
+            {&p->values, &q->values, 0.0, std::max(shown_step(a, *p), shown_step(b, *q))});
+        largest = std::max({largest, largest_reading(*p), largest_reading(*q)});
       }
     for (Both& c : some) c.largest = largest;
     if (largest > 0.0) all.insert(all.end(), some.begin(), some.end());

@@ -74,6 +74,55 @@ TEST(GivenRecordings, ALogThatWasCutTwiceIsRefusedWithTheRowsThatStandInBoth) {
   }
 }
 
+/// The log at twice the interval: means of accelerometers, angles at the end.
+std::string means_of_two(const std::string& recording) {
+  std::istringstream lines(recording);
+  std::string out, names;
+  std::vector<std::string> before;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    if (names.empty()) {
+      out = (names = line) + "\n";
+      continue;
+    }
+    std::vector<std::string> cells;
+    std::istringstream row(line), header(names);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    if (before.empty()) {
+      before = cells;
+      continue;
+    }
+    std::string name;
+    for (std::size_t c = 0; c < cells.size() && std::getline(header, name, ','); ++c)
+      out += (c > 0 ? "," : "") +
+             (name.starts_with("acc_")
+                  ? fmt::format("{}", 0.5 * (std::stod(before[c]) + std::stod(cells[c])))
+                  : cells[c]);
+    out += "\n";
+    before.clear();
+  }
+  return out;
+}
+
+TEST(GivenRecordings, ALogAndTheMeansThatWereExportedOfItAreOne) {
+  const ScratchFolder folder;
+  const std::string study = folder.write("made.toml", short_study), log = folder.file("log.csv"),
+                    other = folder.file("other.csv");
+  const std::string simulate = "simulate " + study + " --set plan.sample='30 s' -o ";
+  ASSERT_EQ(driftscope(simulate + log).code, 0);
+  ASSERT_EQ(driftscope(simulate + other + " --seed 77").code, 0);
+  const std::string means = folder.write("means.csv", means_of_two(text_of(log)));
+  for (const std::string& files : {log + " " + means, means + " " + log}) {
+    const Answer a = driftscope("identify " + study + " " + files + " --quiet");
+    EXPECT_EQ(a.code, static_cast<int>(ExitCode::usage)) << a.err;
+    EXPECT_NE(a.err.find("its noise is that of " + files.substr(0, files.find(' '))),
+              std::string::npos)
+        << a.err;
+  }
+  const Answer a = driftscope("identify " + study + " " + other + " " + means + " --quiet");
+  EXPECT_EQ(a.code, 0) << a.err;
+}
+
 TEST(GivenRecordings, AreNoSimulatedOneThatHasANumber) {
   const ScratchFolder folder;
   const std::string study = folder.write("made.toml", short_study), one = folder.file("one.csv");

@@ -80,6 +80,18 @@ TEST(SeveralRecordings, ACompensatedFilterIsRefusedOneThatDoesNotTellWhatTheLoop
   }
 }
 
+TEST(SeveralRecordings, OfACaseAreRefusedAsTheHelpSays) {
+  const std::string study = config("strapdown_xsens.toml");
+  for (const char* command : {"identify ", "diagnose "}) {
+    const Answer a = driftscope(command + study + " a.csv b.csv");
+    EXPECT_EQ(a.code, usage_error) << a.err;
+    EXPECT_NE(a.err.find("a strapdown study takes one recording, 2 are given"), std::string::npos)
+        << a.err;
+    const std::string help = driftscope(std::string(command) + "--help").out;
+    EXPECT_NE(help.find("of a strapdown study one alone"), std::string::npos) << help;
+  }
+}
+
 TEST(TracedRun, SaysWhoseCourseItIs) {
   const ScratchFolder folder;
   const std::string file = folder.write("s.toml", short_study);
