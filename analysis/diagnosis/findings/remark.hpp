@@ -12,6 +12,7 @@
 #include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
+#include "analysis/preparation/stated_loop.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
 
@@ -32,6 +33,11 @@ struct Input {
 /// A gimbal that reads a constant too much, said where it was read.
 struct GimbalOffZero {
   std::string text;
+};
+/// Recordings state a loop that removed misalignments, and the nominal model has another coupling.
+struct LoopLeftOut {
+  preparation::StatedLoop loop;
+  std::string filter;  ///< name of the nominal one
 };
 /// With the explanation in the model something is left that is just significant.
 struct JustSignificantLeft {};
@@ -159,9 +165,9 @@ struct NotObservable {
 }  // namespace remark
 
 using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft, remark::LambdaNotSettled,
-    remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
-    remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
+    remark::Input, remark::GimbalOffZero, remark::LoopLeftOut, remark::JustSignificantLeft,
+    remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
+    remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
     remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
     remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
     remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,

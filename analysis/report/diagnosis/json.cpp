@@ -257,6 +257,8 @@ Json diagnosis_document(const Diagnosis& d) {
   out["field"] = field_json(d);
   out["absent"] = absent_json(d.absent);
   out["absent_positions"] = d.absent_positions;
+  const auto* loop = remark_in<remark::LoopLeftOut>(d);  // numbers of the recordings that state one
+  out["loop_left_out"] = loop != nullptr ? Json(loop->loop.recordings) : Json::array();
   out["beyond_prior"] = beyond_prior_json(d);
   const auto* beyond = remark_in<remark::BeyondPrior>(d);
   out["prior_explains"] = beyond != nullptr && beyond->explains;

@@ -7,6 +7,7 @@
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/judgement.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
+#include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 
 namespace drift::report {
@@ -192,6 +193,16 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   bool doubtful = j.wrong || !j.less_noise.empty() || !id.absent.empty() ||
                   !id.absent_positions.empty() || !id.off_zero.empty() || !id.spikes.empty();
   if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
+  std::vector<std::string> without_loop;
+  for (const FilterSpec& filter : study.filters)
+    if (id.leaves_out_loop(filter)) without_loop.push_back(filter.name);
+  if (!without_loop.empty()) {
+    // Beside a filter that knows of it the others are there to be compared.
+    const bool all = without_loop.size() == study.filters.size();
+    doubtful = doubtful || all;
+    brief.more.add(all ? Weight::wrong : Weight::note,
+                   "Loop: " + loop_left_out_text(*id.loop, id.names, without_loop));
+  }
   const std::string labels = late_labels_text(id.spikes);
   if (!labels.empty())
     brief.more.add(Weight::wrong, "Labels: " + labels);

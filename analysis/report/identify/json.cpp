@@ -155,6 +155,8 @@ Json identification_document(const mc::Study& study, const identification::Ident
                              {"seconds", g.widest.length},
                              {"left", g.widest.left},
                              {"gaps", g.count}};
+    f["loop_left_out"] =  // numbers of the recordings that state one
+        id.leaves_out_loop(spec) ? Json(id.loop->recordings) : Json::array();
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;
     f["degeneracies"] = directions_json(unseen_directions({study, id, summary}));

@@ -8,6 +8,7 @@
 #include "analysis/report/diagnosis/words/alternative_words.hpp"
 #include "analysis/report/diagnosis/words/effect_words.hpp"
 #include "analysis/report/diagnosis/words/field_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
 #include "analysis/report/diagnosis/words/verdict_openings.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
@@ -207,6 +208,9 @@ const remark::TimesInstead* times_beside_cause(const Diagnosis& d) {
 
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   std::vector<std::pair<std::string, std::string>> all;
+  if (const auto* left_out = remark_in<remark::LoopLeftOut>(d))
+    all.emplace_back(loop_left_out,
+                     in_words(Remark(*left_out), instrument_of(d), d.where.recordings));
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
     all.emplace_back(beyond_its_prior, beyond_prior_text(*beyond) + ".");
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)

@@ -11,7 +11,9 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/words/doubts.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -40,10 +42,15 @@ std::string as_well_text(double gain) {
 /// One overload for each kind of remark.
 struct Words {
   Instrument instrument;
+  std::vector<std::string> recordings;  ///< how each of several is called
 
   std::string operator()(const Input& r) const { return r.text; }
 
   std::string operator()(const GimbalOffZero& r) const { return r.text; }
+
+  std::string operator()(const LoopLeftOut& r) const {
+    return loop_left_out_text(r.loop, recordings, {r.filter});
+  }
 
   std::string operator()(const OrNoise& r) const {
     return fmt::format(
@@ -197,8 +204,9 @@ struct Words {
 
 }  // namespace
 
-std::string in_words(const diagnosis::Remark& remark, Instrument instrument) {
-  return std::visit(Words{instrument}, remark);
+std::string in_words(const diagnosis::Remark& remark, Instrument instrument,
+                     const std::vector<diagnosis::RecordingSpan>& recordings) {
+  return std::visit(Words{instrument, names_of(recordings)}, remark);
 }
 
 std::string cannot_tell_equations(const OtherEquation& open, std::string_view positions) {

@@ -125,7 +125,8 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
   std::vector<std::string> all;
-  for (const Remark& r : d.remarks) all.push_back(in_words(r, instrument_of(d)));
+  for (const Remark& r : d.remarks)
+    all.push_back(in_words(r, instrument_of(d), d.where.recordings));
   for (std::string& left_out : not_examined_sentences(d.not_examined, d.where.recordings))
     all.push_back(std::move(left_out));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
@@ -148,6 +149,12 @@ const RecordingSpan* recording_at(const std::vector<RecordingSpan>& recordings, 
   const auto at =
       std::ranges::find_if(recordings, [&](const RecordingSpan& r) { return t <= r.end_s; });
   return at == recordings.end() ? &recordings.back() : &*at;
+}
+
+std::vector<std::string> names_of(const std::vector<RecordingSpan>& recordings) {
+  std::vector<std::string> names;
+  for (const RecordingSpan& r : recordings) names.push_back(r.name);
+  return names;
 }
 
 std::string channel_in_words(const std::string& name) {

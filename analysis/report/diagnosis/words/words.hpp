@@ -39,6 +39,9 @@ std::vector<std::string> remarks_of(const diagnosis::Diagnosis& diagnosis);
 const diagnosis::RecordingSpan* recording_at(
     const std::vector<diagnosis::RecordingSpan>& recordings, double t_s);
 
+/// How each of several recordings is called; empty of one.
+std::vector<std::string> names_of(const std::vector<diagnosis::RecordingSpan>& recordings);
+
 /// What time axes of a page are in: short tests are shown in seconds, long ones in hours.
 enum class TimeUnit { seconds, hours };
 TimeUnit time_unit(const std::vector<double>& t);
