@@ -203,16 +203,17 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
     brief.more.add(all ? Weight::wrong : Weight::note,
                    "Loop: " + loop_left_out_text(*id.loop, id.names, without_loop));
   }
-  const std::string labels = late_labels_text(id.spikes);
+  const std::string labels = late_labels_text(id.spikes, id.names);
   if (!labels.empty())
     brief.more.add(Weight::wrong, "Labels: " + labels);
   else if (!id.spikes.empty())
-    brief.more.add(j.good.empty() ? Weight::wrong : Weight::doubtful,
-                   fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
-                               "fit: leave {} out (an "
-                               "empty cell).",
-                               id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are",
-                               spikes_text(id.spikes), id.spikes.size() == 1 ? "it" : "them"));
+    brief.more.add(
+        j.good.empty() ? Weight::wrong : Weight::doubtful,
+        fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
+                    "fit: leave {} out (an "
+                    "empty cell).",
+                    id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are",
+                    spikes_text(id.spikes, id.names), id.spikes.size() == 1 ? "it" : "them"));
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
     const auto add = [&](Weight weight, const std::string& said) {

@@ -154,7 +154,8 @@ Json identification_document(const mc::Study& study, const identification::Ident
                              {"to_position", g.widest.to + 1},
                              {"seconds", g.widest.length},
                              {"left", g.widest.left},
-                             {"gaps", g.count}};
+                             {"gaps", g.count},
+                             {"recording", g.widest.recording}};
     f["loop_left_out"] =  // numbers of the recordings that state one
         id.leaves_out_loop(spec) ? Json(id.loop->recordings) : Json::array();
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas

@@ -42,7 +42,7 @@ std::string as_well_text(double gain) {
 /// One overload for each kind of remark.
 struct Words {
   Instrument instrument;
-  std::vector<std::string> recordings;  ///< how each of several is called
+  RecordingNames recordings;
 
   std::string operator()(const Input& r) const { return r.text; }
 
@@ -96,7 +96,7 @@ struct Words {
         "{} isolated sample{} {} left out{} and {} given less weight: their residuals are larger "
         "than Gaussian noise gives.",
         r.removed.size(), plural(r.removed.size()), r.removed.size() == 1 ? "was" : "were",
-        spikes_text(r.removed), r.lowered);
+        spikes_text(r.removed, recordings), r.lowered);
   }
 
   std::string operator()(const FreeInputExplains& r) const {
@@ -170,7 +170,9 @@ struct Words {
                        with, as_well_text(r.gain), r.of_case ? on_a_case : on_a_platform);
   }
 
-  std::string operator()(const MemoryOff& r) const { return memory_sentences(r.terms, r.gaps); }
+  std::string operator()(const MemoryOff& r) const {
+    return memory_sentences(r.terms, r.gaps, recordings);
+  }
 
   std::string operator()(const TimesInstead& r) const { return times_instead_text(r.clock); }
 
@@ -206,7 +208,7 @@ struct Words {
 
 std::string in_words(const diagnosis::Remark& remark, Instrument instrument,
                      const std::vector<diagnosis::RecordingSpan>& recordings) {
-  return std::visit(Words{instrument, names_of(recordings)}, remark);
+  return std::visit(Words{instrument, names_of_recordings(recordings)}, remark);
 }
 
 std::string cannot_tell_equations(const OtherEquation& open, std::string_view positions) {

@@ -151,8 +151,8 @@ const RecordingSpan* recording_at(const std::vector<RecordingSpan>& recordings, 
   return at == recordings.end() ? &recordings.back() : &*at;
 }
 
-std::vector<std::string> names_of(const std::vector<RecordingSpan>& recordings) {
-  std::vector<std::string> names;
+RecordingNames names_of_recordings(const std::vector<RecordingSpan>& recordings) {
+  RecordingNames names;
   for (const RecordingSpan& r : recordings) names.push_back(r.name);
   return names;
 }
