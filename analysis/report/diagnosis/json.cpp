@@ -209,6 +209,7 @@ Json equations_json(const Diagnosis& d) {
          {"shape", shape.empty() ? s.equation : fmt::format("{}: {}", s.equation, shape)},
          {"onset_s", s.shape.kind == Shape::Kind::onset ? s.shape.seconds : std::nan("")},
          {"period_s", s.shape.kind == Shape::Kind::period ? s.shape.seconds : std::nan("")},
+         {"recording", s.shape.recording > 0 ? Json(s.shape.recording) : Json(nullptr)},
          {"covariate", text_or_null(s.shape.covariate)},
          {"correlation", s.shape.covariate.empty() ? std::nan("") : s.correlation}});
   }
