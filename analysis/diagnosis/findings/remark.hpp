@@ -45,8 +45,11 @@ struct JustSignificantLeft {};
 struct LambdaNotSettled {};
 /// Of causes that fit together, one does nothing for held-out positions.
 struct MemberNotConfirmed {};
-/// The cause fits, and held-out positions are predicted no better with it.
-struct NotPredicted {};
+/// The cause fits, and held-out positions are predicted no better with it; or they are, and whole
+/// recordings are not (HeldOut::recordings_disagree).
+struct NotPredicted {
+  bool of_recordings = false;
+};
 /// Nothing is missing, noise as declared or not, with so much probability.
 struct OrNoise {
   double probability;

@@ -145,6 +145,8 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: look up the sample interval of the log, whose times may all be {}, before anything "
         "is added to the {}.",
         times_off_text(times->clock), d.of_case ? "model" : "plan");
+  if (const auto* unsure = remark_in<remark::NotPredicted>(d); unsure && unsure->of_recordings)
+    return "Next: diagnose each recording alone: what was found may be in one of them only.";
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice);
   if (const std::string apart = apart_next(d); !apart.empty()) return apart;

@@ -163,6 +163,7 @@ Json fit_json(const Diagnosis& d) {
     out["held_out"]["by_recording"] = {{"chi2_per_dof_before", held.recording_chi2_per_dof_before},
                                        {"chi2_per_dof_after", held.recording_chi2_per_dof_after},
                                        {"log_score_gain", held.recording_gain},
+                                       {"disagrees", held.recordings_disagree},
                                        {"folds", held.recordings.size()},
                                        {"each", folds_json(held.recordings, d.where.recordings)}};
   out["start_spread_before"] = fit.start_spread_before;

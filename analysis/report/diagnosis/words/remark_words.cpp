@@ -75,7 +75,11 @@ struct Words {
            "worse: it is not confirmed (held_out_gain of each cause in diagnosis.json).";
   }
 
-  std::string operator()(const NotPredicted&) const {
+  std::string operator()(const NotPredicted& r) const {
+    if (r.of_recordings)
+      return "The cause fits, and held-out positions are predicted better with it, but whole "
+             "recordings are not, each from a fit to the others: what it stands for may be in one "
+             "recording only. Diagnose each recording alone.";
     return "The cause fits, but held-out positions are not predicted better with it. An effect "
            "that lives in one position cannot be confirmed by the others: repeat that position.";
   }
