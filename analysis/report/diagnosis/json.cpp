@@ -12,6 +12,7 @@
 #include "analysis/report/diagnosis/words/not_examined_words.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/input_doubts.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 
@@ -259,6 +260,10 @@ Json diagnosis_document(const Diagnosis& d) {
   out["field"] = field_json(d);
   out["absent"] = absent_json(d.absent);
   out["absent_positions"] = d.absent_positions;
+  const auto* zero = remark_in<remark::GimbalOffZero>(d);
+  const auto* left_out = remark_in<remark::SamplesLeftOut>(d);
+  add_input(out, zero != nullptr ? zero->text : "",
+            left_out != nullptr ? left_out->removed : std::vector<identification::Spike>{});
   const auto* loop = remark_in<remark::LoopLeftOut>(d);  // numbers of the recordings that state one
   out["loop_left_out"] = loop != nullptr ? Json(loop->loop.recordings) : Json::array();
   out["beyond_prior"] = beyond_prior_json(d);

@@ -5,9 +5,9 @@
 
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/input_doubts.hpp"
 #include "analysis/report/identify/judgement.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
-#include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 
 namespace drift::report {
@@ -190,30 +190,12 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(study, j, id);
-  bool doubtful = j.wrong || !j.less_noise.empty() || !id.absent.empty() ||
-                  !id.absent_positions.empty() || !id.off_zero.empty() || !id.spikes.empty();
-  if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
-  std::vector<std::string> without_loop;
-  for (const FilterSpec& filter : study.filters)
-    if (id.leaves_out_loop(filter)) without_loop.push_back(filter.name);
-  if (!without_loop.empty()) {
-    // Beside a filter that knows of it the others are there to be compared.
-    const bool all = without_loop.size() == study.filters.size();
-    doubtful = doubtful || all;
-    brief.more.add(all ? Weight::wrong : Weight::note,
-                   "Loop: " + loop_left_out_text(*id.loop, id.names, without_loop));
+  bool doubtful =
+      j.wrong || !j.less_noise.empty() || !id.absent.empty() || !id.absent_positions.empty();
+  for (const InputDoubt& doubt : input_doubts(study, id, !j.good.empty())) {
+    brief.more.add(doubt.weight, fmt::format("{}: {}", doubt.head, doubt.text));
+    doubtful = doubtful || doubt.weight != Weight::note;
   }
-  const std::string labels = late_labels_text(id.spikes, id.names);
-  if (!labels.empty())
-    brief.more.add(Weight::wrong, "Labels: " + labels);
-  else if (!id.spikes.empty())
-    brief.more.add(
-        j.good.empty() ? Weight::wrong : Weight::doubtful,
-        fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
-                    "fit: leave {} out (an "
-                    "empty cell).",
-                    id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are",
-                    spikes_text(id.spikes, id.names), id.spikes.size() == 1 ? "it" : "them"));
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
     const auto add = [&](Weight weight, const std::string& said) {

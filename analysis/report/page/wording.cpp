@@ -1,5 +1,7 @@
 #include "analysis/report/page/wording.hpp"
 
+#include "core/recording/recording_channels.hpp"
+
 namespace drift::report {
 namespace {
 
@@ -48,14 +50,17 @@ Cell parameter_cell(std::size_t param) {
           fmt::format("{} [{}]", parameter_key(param), parameter_unit(param))};
 }
 
+std::string spike_channel(const identification::Spike& spike) {
+  const ChannelTriple& triple = spike.channel < 3 ? accelerometer_channels : gimbal_channels;
+  return std::string(triple.names[static_cast<std::size_t>(spike.channel % 3)]);
+}
+
 std::string spikes_text(const std::vector<identification::Spike>& spikes,
                         const RecordingNames& recordings) {
-  constexpr std::string_view channels[] = {"acc_x",        "acc_y",         "acc_z",
-                                           "gimbal_outer", "gimbal_middle", "gimbal_inner"};
   constexpr std::size_t most = 2;
   std::vector<std::string> places;
   for (const identification::Spike& s : spikes)
-    places.push_back(fmt::format("{} in position {} at {:.6g} s{}", channels[s.channel], s.position,
+    places.push_back(fmt::format("{} in position {} at {:.6g} s{}", spike_channel(s), s.position,
                                  s.t, of_recording(recordings, s.recording)));
   return places.empty() ? "" : fmt::format(" ({})", listed_up_to(places, most));
 }

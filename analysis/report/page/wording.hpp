@@ -30,6 +30,8 @@ Cell parameter_cell(std::size_t param);
 /// empty of one recording, which needs no name.
 using RecordingNames = std::vector<std::string>;
 
+/// The channel of an isolated sample, "gimbal_outer".
+std::string spike_channel(const identification::Spike& spike);
 /// Where isolated samples are: " (acc_y in position 3 at 5400 s of b.csv, gimbal_outer ... and 2
 /// more)". Empty of none.
 std::string spikes_text(const std::vector<identification::Spike>& spikes,

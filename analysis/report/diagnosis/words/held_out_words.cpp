@@ -28,7 +28,7 @@ std::string from_to(double before, double after) {
 
 /// How the score judges, which weighs each error by how surely it was predicted; said where
 /// chi-square goes the other way.
-std::string judged(double gain, double before, double after) {
+std::string judged_by_score(double gain, double before, double after) {
   const bool better = gain > 0.0;
   return fmt::format(
       "{}better{}", better ? "" : "no ",
@@ -47,15 +47,15 @@ std::string held_out_sentence(const HeldOut& held) {
     out = fmt::format(
         "Data held out of the fit are predicted {}: chi-square per degree of freedom {} in {} "
         "folds{}.",
-        judged(held.log_score_gain, held.chi2_per_dof_before, held.chi2_per_dof_after),
+        judged_by_score(held.log_score_gain, held.chi2_per_dof_before, held.chi2_per_dof_after),
         from_to(held.chi2_per_dof_before, held.chi2_per_dof_after), held.folds.size(),
         score_text(held.log_score_gain));
   if (!held.recordings.empty())
     out +=
         fmt::format("{}Whole recordings, each from a fit to the others, are predicted {}: {}{}.",
                     out.empty() ? "" : " ",
-                    judged(held.recording_gain, held.recording_chi2_per_dof_before,
-                           held.recording_chi2_per_dof_after),
+                    judged_by_score(held.recording_gain, held.recording_chi2_per_dof_before,
+                                    held.recording_chi2_per_dof_after),
                     from_to(held.recording_chi2_per_dof_before, held.recording_chi2_per_dof_after),
                     score_text(held.recording_gain));
   return out;
