@@ -6,7 +6,7 @@ namespace drift::report {
 namespace {
 
 /// " of b.csv" of a recording by its number, from 1.
-std::string of_recording(const RecordingNames& recordings, std::size_t number) {
+std::string of_named_recording(const RecordingNames& recordings, std::size_t number) {
   return number == 0 || number > recordings.size() ? "" : " of " + recordings[number - 1];
 }
 
@@ -23,8 +23,8 @@ std::string gap_text(const identification::MemoryGaps& gaps, const RecordingName
       "at "
       "their beginning is assumed. If at their end, {} would be {} times smaller, and what is "
       "found beside it may be none.",
-      g.from + 1, g.to + 1, of_recording(recordings, g.recording), more, g.length / 60.0, g.term,
-      factor);
+      g.from + 1, g.to + 1, of_named_recording(recordings, g.recording), more, g.length / 60.0,
+      g.term, factor);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::string spikes_text(const std::vector<identification::Spike>& spikes,
   std::vector<std::string> places;
   for (const identification::Spike& s : spikes)
     places.push_back(fmt::format("{} in position {} at {:.6g} s{}", spike_channel(s), s.position,
-                                 s.t, of_recording(recordings, s.recording)));
+                                 s.t, of_named_recording(recordings, s.recording)));
   return places.empty() ? "" : fmt::format(" ({})", listed_up_to(places, most));
 }
 
