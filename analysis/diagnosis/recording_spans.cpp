@@ -1,7 +1,7 @@
 #include "analysis/diagnosis/recording_spans.hpp"
 
+#include "analysis/identification/recording_names.hpp"
 #include "analysis/preparation/recorded_test.hpp"
-#include "analysis/preparation/recording_names.hpp"
 
 namespace drift::diagnosis {
 
@@ -9,7 +9,7 @@ std::vector<RecordingSpan> recording_spans(const mc::Study& study,
                                            const std::vector<Recording>& recordings) {
   if (recordings.size() < 2) return {};
   const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
-  const auto names = preparation::recording_names(recordings);
+  const auto names = identification::recording_names(recordings);
   std::vector<RecordingSpan> spans;
   std::size_t first = 0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {

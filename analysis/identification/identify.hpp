@@ -10,7 +10,7 @@
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
-#include "analysis/preparation/stated_loop.hpp"
+#include "analysis/identification/stated_loop.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/plan/excitation.hpp"
@@ -77,7 +77,7 @@ struct Identification {
   std::vector<int> absent_positions;  ///< of the plan, in no recording (prepare())
   std::vector<std::string> absent;    ///< channels of [readout] that no recording measured
   /// What recordings state of a loop, whether or not filters know of it (coupling "compensated").
-  std::optional<preparation::StatedLoop> loop;
+  std::optional<StatedLoop> loop;
   std::vector<SampleOfTest> samples;
   Excitation excitation;        ///< of the plan or of the recordings
   std::vector<Spike> spikes;    ///< of recordings: as the first filter's batch fit shows them

@@ -12,7 +12,7 @@
 #include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
-#include "analysis/preparation/stated_loop.hpp"
+#include "analysis/identification/stated_loop.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
 
@@ -36,7 +36,7 @@ struct GimbalOffZero {
 };
 /// Recordings state a loop that removed misalignments, and the nominal model has another coupling.
 struct LoopLeftOut {
-  preparation::StatedLoop loop;
+  identification::StatedLoop loop;
   std::string filter;  ///< name of the nominal one
 };
 /// With the explanation in the model something is left that is just significant.

@@ -8,7 +8,7 @@
 
 namespace drift::report {
 
-std::string loop_left_out_text(const preparation::StatedLoop& loop,
+std::string loop_left_out_text(const identification::StatedLoop& loop,
                                const std::vector<std::string>& recordings,
                                const std::vector<std::string>& filters) {
   std::vector<std::string> who;
@@ -25,7 +25,7 @@ std::string loop_left_out_text(const preparation::StatedLoop& loop,
   return text;
 }
 
-std::string loop_next(const preparation::StatedLoop& loop, const FilterSpec& filter,
+std::string loop_next(const identification::StatedLoop& loop, const FilterSpec& filter,
                       std::size_t number, std::string_view command) {
   return fmt::format(
       "Next: {}{} again with the loop in the filter: --set {}.",

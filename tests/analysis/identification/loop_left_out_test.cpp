@@ -5,7 +5,7 @@
 
 #include "analysis/diagnosis/diagnose_recordings.hpp"
 #include "analysis/identification/identify.hpp"
-#include "analysis/preparation/stated_loop.hpp"
+#include "analysis/identification/stated_loop.hpp"
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/loop_words.hpp"
@@ -56,15 +56,15 @@ constexpr const char* said =
 
 TEST(LoopLeftOut, IsStatedByColumnsThatAreNotZero) {
   const Scene acting, idle(0.0);
-  const auto of_one = preparation::stated_loop({acting.recording});
+  const auto of_one = identification::stated_loop({acting.recording});
   ASSERT_TRUE(of_one);
   EXPECT_EQ(of_one->recordings, std::vector<std::size_t>{1});
   EXPECT_TRUE(of_one->whole);
-  EXPECT_FALSE(preparation::stated_loop({idle.recording}));
+  EXPECT_FALSE(identification::stated_loop({idle.recording}));
   Recording without = acting.recording;
   std::erase_if(without.channels, [](const Channel& c) { return c.name.starts_with("loop_"); });
-  EXPECT_FALSE(preparation::stated_loop({without}));
-  const auto of_second = preparation::stated_loop({without, acting.recording});
+  EXPECT_FALSE(identification::stated_loop({without}));
+  const auto of_second = identification::stated_loop({without, acting.recording});
   ASSERT_TRUE(of_second);
   EXPECT_EQ(of_second->recordings, std::vector<std::size_t>{2});
   EXPECT_FALSE(of_second->whole);
@@ -123,7 +123,7 @@ TEST(LoopLeftOut, LeadsTheDoubtsOfADiagnosis) {
 }
 
 TEST(LoopLeftOut, OfSeveralRecordingsNamesThoseThatStateOne) {
-  const preparation::StatedLoop loop{{2}, false};
+  const identification::StatedLoop loop{{2}, false};
   const std::string text = report::loop_left_out_text(loop, {"a.csv", "b.csv"}, {"eq5", "eq6"});
   EXPECT_EQ(text.find("b.csv states that a loop removed"), 0u) << text;
   EXPECT_NE(text.find("filters eq5 and eq6 leave that out"), std::string::npos) << text;

@@ -10,8 +10,6 @@
 namespace drift::report {
 namespace {
 
-using diagnosis::HeldOut;
-
 /// "1.03 → 1.00" of chi-squares per degree of freedom, with as many decimals as tell two that are
 /// not one apart.
 std::string from_to(double before, double after) {
@@ -41,7 +39,7 @@ std::string score_text(double gain) {
 
 }  // namespace
 
-std::string held_out_sentence(const HeldOut& held) {
+std::string held_out_sentence(const diagnosis::HeldOut& held) {
   std::string out;
   if (!held.folds.empty())
     out = fmt::format(

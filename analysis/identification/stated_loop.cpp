@@ -1,11 +1,11 @@
-#include "analysis/preparation/stated_loop.hpp"
+#include "analysis/identification/stated_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/recording/recording_channels.hpp"
 
-namespace drift::preparation {
+namespace drift::identification {
 
 std::optional<StatedLoop> stated_loop(const std::vector<Recording>& recordings) {
   StatedLoop loop;
@@ -23,4 +23,4 @@ std::optional<StatedLoop> stated_loop(const std::vector<Recording>& recordings) 
   return loop.recordings.empty() ? std::nullopt : std::optional(std::move(loop));
 }
 
-}  // namespace drift::preparation
+}  // namespace drift::identification

@@ -6,7 +6,7 @@
 
 #include "core/recording/recording.hpp"
 
-namespace drift::preparation {
+namespace drift::identification {
 
 /// That recordings were made with a loop that removes an estimate of the gyros' misalignments
 /// (coupling "compensated"): they carry it, and it is not zero.
@@ -18,4 +18,4 @@ struct StatedLoop {
 /// Empty where none states one. Only a filter of that coupling looks at the columns.
 std::optional<StatedLoop> stated_loop(const std::vector<Recording>& recordings);
 
-}  // namespace drift::preparation
+}  // namespace drift::identification

@@ -1,11 +1,11 @@
-#include "analysis/preparation/recording_names.hpp"
+#include "analysis/identification/recording_names.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <set>
 
-namespace drift::preparation {
+namespace drift::identification {
 
 std::vector<std::string> recording_names(const std::vector<Recording>& recordings) {
   if (recordings.size() < 2) return {};
@@ -17,4 +17,4 @@ std::vector<std::string> recording_names(const std::vector<Recording>& recording
   return std::set<std::string>(files.begin(), files.end()).size() == files.size() ? files : paths;
 }
 
-}  // namespace drift::preparation
+}  // namespace drift::identification
