@@ -9,6 +9,7 @@
 #include "analysis/diagnosis/doubts/unknown_field.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
 #include "analysis/identification/absent_channels.hpp"
+#include "analysis/identification/stated_loop.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
 
@@ -107,6 +108,9 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   d = advised(std::move(d), test, options);
   if (progress) progress("done", 1.0);
   std::vector<Remark> remarks;
+  if (const auto loop = identification::stated_loop(test.recordings);
+      loop && !d.of_case && d.nominal.coupling != Coupling::compensated)
+    remarks.emplace_back(remark::LoopLeftOut{*loop, d.nominal.name});
   if (!test.off_zero.empty()) remarks.emplace_back(remark::GimbalOffZero{test.off_zero});
   for (const std::string& text : test.remarks) remarks.emplace_back(remark::Input{text});
   d.remarks.insert(d.remarks.begin(), remarks.begin(), remarks.end());

@@ -87,7 +87,7 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
   if (one && !judged && !members)
     out.remarks.emplace_back(remark::MemberNotConfirmed{});
   else if (one && !judged)
-    out.remarks.emplace_back(remark::NotPredicted{});
+    out.remarks.emplace_back(remark::NotPredicted{held_out.recordings_disagree});
   return out;
 }
 

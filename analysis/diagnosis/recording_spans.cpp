@@ -1,32 +1,15 @@
 #include "analysis/diagnosis/recording_spans.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <set>
-
+#include "analysis/identification/recording_names.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 
 namespace drift::diagnosis {
-namespace {
-
-/// File names, or whole paths where two files have one name.
-std::vector<std::string> names_of(const std::vector<Recording>& recordings) {
-  std::vector<std::string> files, paths;
-  for (const Recording& r : recordings) {
-    paths.push_back(r.source.empty() ? fmt::format("recording {}", paths.size() + 1) : r.source);
-    files.push_back(std::filesystem::path(paths.back()).filename().string());
-  }
-  return std::set<std::string>(files.begin(), files.end()).size() == files.size() ? files : paths;
-}
-
-}  // namespace
 
 std::vector<RecordingSpan> recording_spans(const mc::Study& study,
                                            const std::vector<Recording>& recordings) {
   if (recordings.size() < 2) return {};
   const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
-  const auto names = names_of(recordings);
+  const auto names = identification::recording_names(recordings);
   std::vector<RecordingSpan> spans;
   std::size_t first = 0;
   for (std::size_t k = 0; k < recordings.size(); ++k) {

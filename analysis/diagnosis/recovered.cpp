@@ -146,7 +146,9 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
     out.correlation = explained.size() > 0 ? correlation(explained, input.value) : 0.0;
     return out;
   }
-  // The shape whose own projected score is largest, two-parameter ones at a discount.
+  // The shape whose own projected score is largest, two-parameter ones at a discount. Of those that
+  // are one but for what the model absorbs (from one recording on, or before it alone) the first.
+  constexpr double better = 1.0 + 1e-6;
   double best = 0.0;
   const ShapeColumns* winner = nullptr;
   const auto all = signal_shapes(input, timeline, covariates);
@@ -156,7 +158,7 @@ RecoveredSignal recovered_signal(const InputEstimate& input, const Timeline& tim
     if (!(C.diagonal().minCoeff() > 0.0)) continue;
     const double T = g.dot(solve_symmetric(C, g));
     const double worth = stats::strength(T, static_cast<int>(g.size()));
-    if (worth > best) {
+    if (worth > better * best) {
       best = worth;
       winner = &f;
       // Correlation of the signal with the shape, both as the test shows them.

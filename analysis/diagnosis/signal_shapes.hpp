@@ -17,7 +17,8 @@ inline double middle_time(const Timeline& t, const std::pair<std::size_t, std::s
   return 0.5 * (t.intervals[bin.first].t0 + t.intervals[bin.second - 1].t1);
 }
 
-/// All shapes that are tried: of time, of what the platform feels, of positions and covariates.
+/// All shapes that are tried: of time, of what the platform feels, of positions, recordings and
+/// covariates.
 std::vector<ShapeColumns> signal_shapes(const InputEstimate& input, const Timeline& timeline,
                                         const std::vector<preparation::Covariate>& covariates);
 

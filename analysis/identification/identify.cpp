@@ -11,6 +11,7 @@
 #include "analysis/identification/considered_field.hpp"
 #include "analysis/identification/counted_start.hpp"
 #include "analysis/identification/filter_run.hpp"
+#include "analysis/identification/recording_names.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/prepare.hpp"
 #include "analysis/preparation/recorded_test.hpp"
@@ -249,6 +250,8 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
   for (const Recording& r : recordings) id.sources.push_back(r.source);
   const preparation::Prepared ready = preparation::prepare(study, recordings);
   id.recordings = ready.recordings;
+  id.names = recording_names(ready.recordings);
+  id.loop = stated_loop(ready.recordings);
   id.remarks = ready.remarks;
   id.off_zero = ready.off_zero;
   id.absent_positions = ready.absent_positions;

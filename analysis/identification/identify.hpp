@@ -10,6 +10,7 @@
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
+#include "analysis/identification/stated_loop.hpp"
 #include "core/estimate/batch.hpp"
 #include "core/estimate/sequential/ekf.hpp"
 #include "core/plan/excitation.hpp"
@@ -70,10 +71,13 @@ struct Identification {
   std::optional<TruthDraw> truth;     ///< of a simulated recording
   std::vector<Recording> recordings;  ///< as they were used; of a simulation the one
   std::vector<std::string> sources;
+  std::vector<std::string> names;    ///< how each of several recordings is called; empty of one
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
   std::string off_zero;              ///< a gimbal that reads a constant too much (prepare()); or ""
   std::vector<int> absent_positions;  ///< of the plan, in no recording (prepare())
   std::vector<std::string> absent;    ///< channels of [readout] that no recording measured
+  /// What recordings state of a loop, whether or not filters know of it (coupling "compensated").
+  std::optional<StatedLoop> loop;
   std::vector<SampleOfTest> samples;
   Excitation excitation;        ///< of the plan or of the recordings
   std::vector<Spike> spikes;    ///< of recordings: as the first filter's batch fit shows them
@@ -81,6 +85,11 @@ struct Identification {
   std::vector<FilterSummary> summaries;
 
   std::vector<const FilterRun*> runs_of(std::size_t filter) const;
+
+  /// Whether recordings state a loop and the filter has another coupling than that of one.
+  bool leaves_out_loop(const FilterSpec& filter) const {
+    return loop && filter.coupling != Coupling::compensated;
+  }
 
   /// The run that a filter is judged by: whatever is said of the filter is said of this one.
   const FilterRun& counted(const FilterSummary& filter) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/inference/thresholds.hpp"
+#include "core/plan/stretches_and_chains.hpp"
 
 namespace drift::identification {
 namespace {
@@ -104,14 +105,19 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
 Despiked without_spikes(Measurements measured, const Timeline& timeline, const Readout& readout,
                         const BatchResult& fit) {
   std::vector<Spike> spikes;
+  const std::vector<std::size_t> recording = recording_of_each(timeline);
+  const auto offset = [&](std::size_t number) {
+    return number < timeline.recordings.size() ? timeline.recordings[number].offset : 0.0;
+  };
   const auto clean = [&](Mat3X& values, const Mat3X& residual, int first_channel) {
     for (const Difference& d : spikes_of(residual, timeline.intervals)) {
       values(d.axis, d.sample) = std::nan("");
       const auto at = static_cast<std::size_t>(d.sample);
       const Interval& i = timeline.intervals[at];
-      const bool ends =
-          at + 1 < timeline.intervals.size() && timeline.intervals[at + 1].position != i.position;
-      spikes.push_back({first_channel + d.axis, i.t1, i.position + 1, ends});
+      const bool ends = at + 1 < timeline.intervals.size() && recording[at + 1] == recording[at] &&
+                        timeline.intervals[at + 1].position != i.position;
+      spikes.push_back({first_channel + d.axis, i.t1 - offset(recording[at]), i.position + 1, ends,
+                        recording[at] + 1});
     }
   };
   if (readout.accelerometers) clean(measured.acc, fit.acc_residual, 0);
@@ -120,10 +126,10 @@ Despiked without_spikes(Measurements measured, const Timeline& timeline, const R
 }
 
 std::size_t late_labels(const std::vector<Spike>& spikes) {
-  std::set<int> positions;
+  std::set<std::pair<std::size_t, int>> positions;
   for (const Spike& s : spikes) {
     if (!s.ends_position) return 0;
-    positions.insert(s.position);
+    positions.emplace(s.recording, s.position);
   }
   return positions.size() < SampleLimits::late_positions ? 0 : positions.size();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/estimate/batch.hpp"
@@ -9,9 +10,10 @@ namespace drift::identification {
 /// A sample far from its neighbours.
 struct Spike {
   int channel = 0;             ///< 0..2 accelerometers x y z, 3..5 gimbals outer middle inner
-  double t = 0.0;              ///< of its row [s]
+  double t = 0.0;              ///< of its row, by the clock of its recording [s]
   int position = 1;            ///< number of the plan's position, from 1
   bool ends_position = false;  ///< its row is the last before the next position
+  std::size_t recording = 1;   ///< its number, from 1
 };
 
 /// Isolated samples far from their neighbours, taken out of the measurements: a sample is compared
@@ -28,9 +30,9 @@ struct Despiked {
 Despiked without_spikes(Measurements measured, const Timeline& timeline, const Readout& readout,
                         const BatchResult& fit);
 
-/// The positions whose last row is such a sample, if no other rows are and there are so many that
-/// no chance has it (SampleLimits::late_positions), as where the numbers of positions change a row
-/// too late. 0 otherwise.
+/// The positions, of every recording, whose last row is such a sample, if no other rows are and
+/// there are so many that no chance has it (SampleLimits::late_positions), as where the numbers of
+/// positions change a row too late. 0 otherwise.
 std::size_t late_labels(const std::vector<Spike>& spikes);
 
 }  // namespace drift::identification

@@ -31,7 +31,8 @@ void refer_to_common_mean(std::vector<Timeline>& timelines) {
   }
 }
 
-Timeline joined(std::vector<Timeline> timelines) {
+/// The timelines one after another; recordings: what they are of.
+Timeline joined(std::vector<Timeline> timelines, std::vector<JoinedRecording> recordings) {
   refer_to_common_mean(timelines);
   Timeline all = std::move(timelines.front());
   for (std::size_t k = 1; k < timelines.size(); ++k) {
@@ -47,6 +48,7 @@ Timeline joined(std::vector<Timeline> timelines) {
       all.intervals.push_back(i);
     }
     for (Node& n : next.nodes) n.t += shift;
+    recordings[k].offset = shift;
     all.nodes.insert(all.nodes.end(), next.nodes.begin(), next.nodes.end());
     all.chains += next.chains;
     all.carried &= next.carried;
@@ -54,6 +56,7 @@ Timeline joined(std::vector<Timeline> timelines) {
     all.without_loop.insert(all.without_loop.end(), next.without_loop.begin(),
                             next.without_loop.end());
   }
+  if (recordings.size() > 1) all.recordings = std::move(recordings);
   return all;
 }
 
@@ -106,8 +109,8 @@ RecordedTest recorded_test(const mc::Study& study, const std::vector<Recording>&
     several.push_back({r.source.empty() ? fmt::format("recording {}", parts.size()) : r.source,
                        timelines.back().carried});
   }
-  RecordedTest test{joined(std::move(timelines)), joined(parts), std::move(ends), field};
-  if (several.size() > 1) test.timeline.recordings = std::move(several);
+  RecordedTest test{joined(std::move(timelines), std::move(several)), joined(parts),
+                    std::move(ends), field};
   mc::resolve_own_terms_of_filters(test.timeline, study);
   if (!test.measured.acc.array().isFinite().any() && !test.measured.gimbal.array().isFinite().any())
     throw InputError(

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "core/plan/timeline.hpp"
 
@@ -23,6 +25,15 @@ inline bool follows_a_recording(const Timeline& timeline, std::size_t i) {
 /// Whether the timeline is of more than one recording.
 inline bool of_several_recordings(const Timeline& timeline) {
   return std::ranges::count(timeline.intervals, true, &Interval::begins) > 1;
+}
+
+/// The number of each interval's recording, from 0.
+inline std::vector<std::size_t> recording_of_each(const Timeline& timeline) {
+  std::vector<std::size_t> numbers;
+  numbers.reserve(timeline.intervals.size());
+  for (std::size_t i = 0; i < timeline.intervals.size(); ++i)
+    numbers.push_back(i == 0 ? 0 : numbers.back() + (follows_a_recording(timeline, i) ? 1 : 0));
+  return numbers;
 }
 
 /// From the end of the interval before, or the beginning of its recording, to the end of interval i

@@ -67,6 +67,7 @@ struct Node {
 struct JoinedRecording {
   std::string name;  ///< file, or "recording 2"
   CovariateSet carried = 0;
+  double offset = 0.0;  ///< time of the timeline less its own [s]
 };
 
 /// A test laid out in time: what a simulation and an estimator run along.

@@ -38,8 +38,7 @@ class Reader {
     heading_ = rec_.find("case_heading");
     phase_ = rec_.find("phase");
     for (int a = 0; a < 3; ++a) cmd_[a] = rec_.find(std::string("cmd_") + "xyz"[a]);
-    for (int a = 0; a < 6; ++a)
-      loop_[a] = rec_.find(std::string(a < 3 ? "loop_eta_" : "loop_xi_") + "xyz"[a % 3]);
+    for (std::size_t a = 0; a < loop_.size(); ++a) loop_[a] = rec_.find(loop_channels[a]);
   }
 
   Timeline read() {

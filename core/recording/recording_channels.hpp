@@ -36,6 +36,10 @@ inline constexpr ChannelTriple gyro_channels{"gyros", {"gyro_x", "gyro_y", "gyro
 inline constexpr std::array<ChannelTriple, 4> channel_triples{
     accelerometer_channels, gimbal_channels, command_channels, gyro_channels};
 
+/// What a loop of coupling "compensated" removed: eta and xi of the gyros.
+inline constexpr std::array<std::string_view, 6> loop_channels{
+    "loop_eta_x", "loop_eta_y", "loop_eta_z", "loop_xi_x", "loop_xi_y", "loop_xi_z"};
+
 /// Three channels of a row as a vector [internal units]; empty where one of them is absent or not
 /// measured.
 std::optional<Vec3> measured(const Recording& recording, const ChannelTriple& channels,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
 
 namespace drift {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 constexpr std::array<const char*, 3> acc_names{"acc_x", "acc_y", "acc_z"};
 constexpr std::array<const char*, 3> gimbal_names{"gimbal_outer", "gimbal_middle", "gimbal_inner"};
 constexpr std::array<const char*, 3> cmd_names{"cmd_x", "cmd_y", "cmd_z"};
-constexpr std::array<const char*, 6> loop_names{"loop_eta_x", "loop_eta_y", "loop_eta_z",
-                                                "loop_xi_x",  "loop_xi_y",  "loop_xi_z"};
 
 }  // namespace
 
@@ -56,7 +55,8 @@ Recording make_recording(const Timeline& timeline, const Measurements& measured,
     add(cmd_names[a], unit::deg_per_h, [&](std::size_t i) { return interval(i).omega_cmd_p[a]; });
   add("case_heading", unit::deg, [&](std::size_t i) { return interval(i).heading1; });
   for (int a = 0; timeline.loop_told && a < 6; ++a)
-    add(loop_names[a], unit::arcsec, [&](std::size_t i) { return interval(i).loop[a]; });
+    add(loop_channels[static_cast<std::size_t>(a)], unit::arcsec,
+        [&](std::size_t i) { return interval(i).loop[a]; });
   for (const CovariateSpec& c : known_covariates)
     for (std::size_t k = 0; timeline.carries(c) && k < c.components(); ++k)
       add(c.column(k), c.unit, [&, at = c.first + k](std::size_t i) {

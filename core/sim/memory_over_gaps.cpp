@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/plan/stretches_and_chains.hpp"
+
 namespace drift {
 namespace {
 
@@ -32,6 +34,7 @@ std::vector<MemoryOverGap> memory_over_gaps(const Timeline& timeline, const Drif
                                             const Theta& theta) {
   std::vector<MemoryOverGap> all;
   if (timeline.of_case) return all;  // its turns are recorded, and no part of the timeline
+  const std::vector<std::size_t> recording = recording_of_each(timeline);
   TermLibrary::for_each_memory(model.terms, [&]<class T>(const TermInfo& term) {
     for (std::size_t n = 1; n < timeline.intervals.size(); ++n) {
       const Interval &last = timeline.intervals[n - 1], &first = timeline.intervals[n];
@@ -40,7 +43,8 @@ std::vector<MemoryOverGap> memory_over_gaps(const Timeline& timeline, const Drif
       const double left =
           part_left<T>(length, timeline.nodes[last.last_node()].R_lr.row(2),
                        timeline.nodes[first.first_node].R_lr.row(2), theta.data() + term.first);
-      if (left < 1.0) all.push_back({term.key, last.position, first.position, length, left});
+      if (left < 1.0)
+        all.push_back({term.key, last.position, first.position, length, left, recording[n] + 1});
     }
   });
   return all;

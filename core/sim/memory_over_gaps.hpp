@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct MemoryOverGap {
   /// that lags by tau. A trace that is of the former has amplitudes that are by this factor smaller
   /// than those that MemoryPath, which turns it at the begin, makes of it.
   double left = 1.0;
+  std::size_t recording = 1;  ///< number of the one that it is in, from 1
 };
 
 /// The gaps in front of caged positions of a platform over which terms of a model remember

@@ -37,6 +37,8 @@ struct HeldOut {
   std::vector<Fold> recordings;
   double recording_chi2_per_dof_before = 0.0, recording_chi2_per_dof_after = 0.0;
   double recording_gain = 0.0;
+  /// They are predicted no better though positions are: what was found may be in one of them only.
+  bool recordings_disagree = false;
 };
 
 struct Whiteness {

@@ -12,6 +12,7 @@
 #include "analysis/identification/common_scale.hpp"
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
+#include "analysis/identification/stated_loop.hpp"
 #include "core/estimate/estimate_result.hpp"
 #include "core/physics/drift_model.hpp"
 
@@ -33,14 +34,22 @@ struct Input {
 struct GimbalOffZero {
   std::string text;
 };
+/// Recordings state a loop that removed misalignments, and the nominal model has another coupling.
+struct LoopLeftOut {
+  identification::StatedLoop loop;
+  std::string filter;  ///< name of the nominal one
+};
 /// With the explanation in the model something is left that is just significant.
 struct JustSignificantLeft {};
 /// Another drift equation explains it, but lambda is within 3 sigma of the nominal one.
 struct LambdaNotSettled {};
 /// Of causes that fit together, one does nothing for held-out positions.
 struct MemberNotConfirmed {};
-/// The cause fits, and held-out positions are predicted no better with it.
-struct NotPredicted {};
+/// The cause fits, and held-out positions are predicted no better with it; or they are, and whole
+/// recordings are not (HeldOut::recordings_disagree).
+struct NotPredicted {
+  bool of_recordings = false;
+};
 /// Nothing is missing, noise as declared or not, with so much probability.
 struct OrNoise {
   double probability;
@@ -159,9 +168,9 @@ struct NotObservable {
 }  // namespace remark
 
 using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::JustSignificantLeft, remark::LambdaNotSettled,
-    remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
-    remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
+    remark::Input, remark::GimbalOffZero, remark::LoopLeftOut, remark::JustSignificantLeft,
+    remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
+    remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
     remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
     remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
     remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,

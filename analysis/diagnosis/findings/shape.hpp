@@ -10,14 +10,15 @@ struct Shape {
     unknown,                ///< not looked at
     nothing,                ///< nothing above the noise
     none_simple,            ///< something, of none of the shapes below
-    ramp,                   ///< grows evenly with time
-    decay_from_start,       ///< dies away from the start of the test; `seconds`: time constant
+    ramp,                   ///< grows evenly with time, in each recording from its start
+    decay_from_start,       ///< dies away from there; `seconds`: time constant
     decay_in_position,      ///< the same within every position
     onset,                  ///< sets in at `seconds` and stays
-    period,                 ///< swings with a period of `seconds`
+    period,                 ///< swings with a period of `seconds`, by the clock of each recording
     specific_force,         ///< goes with that along `axis`
     specific_force_square,  ///< goes with the product of those along `axis` and `other_axis`
     one_position,           ///< is present in `position` alone
+    one_recording,          ///< is present in `recording` alone
     covariate,              ///< goes with `covariate`
     of_cause,               ///< what a named cause makes of it
     of_alternative,         ///< what the most probable of several causes makes of it
@@ -30,6 +31,7 @@ struct Shape {
   int axis = 0, other_axis = 0;
   int position = 0;  ///< 1-based
   std::string covariate = {};
+  int recording = 0;  ///< 1-based
 };
 
 }  // namespace drift::diagnosis

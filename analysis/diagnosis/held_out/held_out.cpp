@@ -168,7 +168,8 @@ HeldOut with_recordings(HeldOut out, std::vector<Outcome> outcomes) {
     out.recording_chi2_per_dof_before = total.before / total.rows;
     out.recording_chi2_per_dof_after = total.after / total.rows;
   }
-  out.improves = out.improves && out.recording_gain > 0.0;
+  out.recordings_disagree = out.improves && !(out.recording_gain > 0.0);
+  out.improves = out.improves && !out.recordings_disagree;
   return out;
 }
 

@@ -11,7 +11,9 @@
 #include "analysis/report/diagnosis/words/too_large.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
+#include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
+#include "analysis/report/page/study_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/words.hpp"
 #include "core/physics/closure.hpp"
@@ -36,12 +38,9 @@ std::optional<remark::StrongestLeft> strongest_left(const Diagnosis& d) {
   return std::nullopt;
 }
 
-/// A key of the nominal model, as --set takes it. It is the first filter, and a name that would
-/// have to be quoted is left to its number.
+/// A key of the nominal model, which is the first filter, as --set takes it.
 std::string key_of_nominal(const FilterSpec& nominal, std::string_view key) {
-  const bool plain = shell_word(nominal.name) == nominal.name &&
-                     nominal.name.find_first_of(".=") == std::string::npos;
-  return fmt::format("filter.{}.{}", plain ? nominal.name : "0", key);
+  return key_of_filter(nominal, 0, key);
 }
 
 /// The parameters that a candidate's line names: "accelerometer K0" those of K0.
@@ -113,6 +112,8 @@ std::string nearest_next(const Diagnosis& d, const remark::StrongestLeft& left) 
 std::string next_step(const Diagnosis& d, bool off_zero) {
   if (labels_are_late(d))
     return "Next: correct the numbers of the positions in the recording and diagnose again.";
+  if (const auto* left_out = remark_in<remark::LoopLeftOut>(d))
+    return loop_next(left_out->loop, d.nominal, 0, "diagnose");
   if (d.heading_doubt) return corrected_text(*d.heading_doubt, "diagnose");
   if (d.site_doubt && d.site_doubt->clock) return clock_next(*d.site_doubt->clock, "diagnose");
   if (d.site_doubt) return latitude_next(*d.site_doubt, "diagnose");
@@ -144,6 +145,8 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
         "Next: look up the sample interval of the log, whose times may all be {}, before anything "
         "is added to the {}.",
         times_off_text(times->clock), d.of_case ? "model" : "plan");
+  if (const auto* unsure = remark_in<remark::NotPredicted>(d); unsure && unsure->of_recordings)
+    return "Next: diagnose each recording alone: what was found may be in one of them only.";
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice);
   if (const std::string apart = apart_next(d); !apart.empty()) return apart;
@@ -221,10 +224,12 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   // Another prior, and the verdict would be another.
   if (d.verdict == Verdict::named && nearest_is_too_large(d))
     brief.kept = too_large_text(d).substr(1);
-  brief.tone = d.wrong_study()                                                      ? Tone::bad
-               : d.verdict == Verdict::consistent && but_far_from_priors(d).empty() ? Tone::good
-               : d.verdict == Verdict::named || d.verdict == Verdict::consistent    ? Tone::doubtful
-                                                                                    : Tone::bad;
+  brief.tone = d.wrong_study() ? Tone::bad
+               : d.verdict == Verdict::consistent && but_far_from_priors(d).empty() &&
+                       remark_in<remark::LoopLeftOut>(d) == nullptr
+                   ? Tone::good
+               : d.verdict == Verdict::named || d.verdict == Verdict::consistent ? Tone::doubtful
+                                                                                 : Tone::bad;
   const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
   };
@@ -245,9 +250,9 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
     }
   const bool at_fault = labels_are_late(d) || !priors_at_fault_text(d).empty() ||
                         (d.verdict == Verdict::named && !priors_taken_text(d).empty());
-  if (!d.wrong_study())
-    for (const auto& [head, sentence] : doubts_of(d))
-      add(at_fault                                                        ? Weight::wrong
+  for (const auto& [head, sentence] : doubts_of(d))
+    if (head == loop_left_out || !d.wrong_study())
+      add(at_fault || head == loop_left_out                               ? Weight::wrong
           : d.verdict == Verdict::unexplained && head != beyond_its_prior ? Weight::note
                                                                           : Weight::doubtful,
           head, sentence);

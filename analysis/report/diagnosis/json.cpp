@@ -12,6 +12,7 @@
 #include "analysis/report/diagnosis/words/not_examined_words.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/input_doubts.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 
@@ -163,6 +164,7 @@ Json fit_json(const Diagnosis& d) {
     out["held_out"]["by_recording"] = {{"chi2_per_dof_before", held.recording_chi2_per_dof_before},
                                        {"chi2_per_dof_after", held.recording_chi2_per_dof_after},
                                        {"log_score_gain", held.recording_gain},
+                                       {"disagrees", held.recordings_disagree},
                                        {"folds", held.recordings.size()},
                                        {"each", folds_json(held.recordings, d.where.recordings)}};
   out["start_spread_before"] = fit.start_spread_before;
@@ -209,6 +211,7 @@ Json equations_json(const Diagnosis& d) {
          {"shape", shape.empty() ? s.equation : fmt::format("{}: {}", s.equation, shape)},
          {"onset_s", s.shape.kind == Shape::Kind::onset ? s.shape.seconds : std::nan("")},
          {"period_s", s.shape.kind == Shape::Kind::period ? s.shape.seconds : std::nan("")},
+         {"recording", s.shape.recording > 0 ? Json(s.shape.recording) : Json(nullptr)},
          {"covariate", text_or_null(s.shape.covariate)},
          {"correlation", s.shape.covariate.empty() ? std::nan("") : s.correlation}});
   }
@@ -257,6 +260,12 @@ Json diagnosis_document(const Diagnosis& d) {
   out["field"] = field_json(d);
   out["absent"] = absent_json(d.absent);
   out["absent_positions"] = d.absent_positions;
+  const auto* zero = remark_in<remark::GimbalOffZero>(d);
+  const auto* left_out = remark_in<remark::SamplesLeftOut>(d);
+  add_input(out, zero != nullptr ? zero->text : "",
+            left_out != nullptr ? left_out->removed : std::vector<identification::Spike>{});
+  const auto* loop = remark_in<remark::LoopLeftOut>(d);  // numbers of the recordings that state one
+  out["loop_left_out"] = loop != nullptr ? Json(loop->loop.recordings) : Json::array();
   out["beyond_prior"] = beyond_prior_json(d);
   const auto* beyond = remark_in<remark::BeyondPrior>(d);
   out["prior_explains"] = beyond != nullptr && beyond->explains;

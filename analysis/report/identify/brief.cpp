@@ -5,6 +5,7 @@
 
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/input_doubts.hpp"
 #include "analysis/report/identify/judgement.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
@@ -189,19 +190,12 @@ InBrief identification_in_brief(const mc::Study& study, const identification::Id
   const Judgement j = judgement_of(study, id);
   InBrief brief;
   brief.verdict = verdict_text(study, j, id);
-  bool doubtful = j.wrong || !j.less_noise.empty() || !id.absent.empty() ||
-                  !id.absent_positions.empty() || !id.off_zero.empty() || !id.spikes.empty();
-  if (!id.off_zero.empty()) brief.more.add(Weight::wrong, "Gimbals: " + id.off_zero + ".");
-  const std::string labels = late_labels_text(id.spikes);
-  if (!labels.empty())
-    brief.more.add(Weight::wrong, "Labels: " + labels);
-  else if (!id.spikes.empty())
-    brief.more.add(j.good.empty() ? Weight::wrong : Weight::doubtful,
-                   fmt::format("Outliers: {} isolated sample{} far from those around{}, and in the "
-                               "fit: leave {} out (an "
-                               "empty cell).",
-                               id.spikes.size(), id.spikes.size() == 1 ? " is" : "s are",
-                               spikes_text(id.spikes), id.spikes.size() == 1 ? "it" : "them"));
+  bool doubtful =
+      j.wrong || !j.less_noise.empty() || !id.absent.empty() || !id.absent_positions.empty();
+  for (const InputDoubt& doubt : input_doubts(study, id, !j.good.empty())) {
+    brief.more.add(doubt.weight, fmt::format("{}: {}", doubt.head, doubt.text));
+    doubtful = doubtful || doubt.weight != Weight::note;
+  }
   for (const identification::FilterSummary& s : id.summaries) {
     const FilterView view{study, id, s};
     const auto add = [&](Weight weight, const std::string& said) {

@@ -186,7 +186,7 @@ std::string considered_text(const FilterView& v) {
 
 std::string remembered_text(const FilterView& v) {
   const identification::FilterRun& run = v.id.counted(v.summary);
-  std::string said = memory_sentences(run.memory_doubt, run.memory_gaps);
+  std::string said = memory_sentences(run.memory_doubt, run.memory_gaps, v.id.names);
   if (said.empty()) return "";
   said.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(said.front())));
   return fmt::format("Filter {}: {}", v.spec().name, said);

@@ -3,6 +3,7 @@
 
 #include "analysis/identification/filter_odds.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/input_doubts.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/identify/sections.hpp"
@@ -118,7 +119,10 @@ Json identification_document(const mc::Study& study, const identification::Ident
   out["sources"] = id.sources;
   out["absent_positions"] = id.absent_positions;
   out["absent_channels"] = id.absent;  // of [readout]; the estimates are without them
-  out["remarks"] = id.remarks;
+  add_input(out, id.off_zero, id.spikes);
+  Json& remarks = out["remarks"] = Json::array();
+  for (const InputDoubt& doubt : input_doubts(study, id, true)) remarks.push_back(doubt.text);
+  for (const std::string& text : id.remarks) remarks.push_back(text);
   const auto evidences = identification::log_evidences(study, id);
   Json& filters = out["filters"] = Json::array();
   for (const identification::FilterSummary& summary : id.summaries) {
@@ -154,7 +158,10 @@ Json identification_document(const mc::Study& study, const identification::Ident
                              {"to_position", g.widest.to + 1},
                              {"seconds", g.widest.length},
                              {"left", g.widest.left},
-                             {"gaps", g.count}};
+                             {"gaps", g.count},
+                             {"recording", g.widest.recording}};
+    f["loop_left_out"] =  // numbers of the recordings that state one
+        id.leaves_out_loop(spec) ? Json(id.loop->recordings) : Json::array();
     f["field_considered"] = summary.field_considered;  // its error is in the sigmas
     f["weak_directions"] = summary.weak;
     f["degeneracies"] = directions_json(unseen_directions({study, id, summary}));

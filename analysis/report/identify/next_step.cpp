@@ -1,7 +1,10 @@
+#include <algorithm>
+
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/judgement.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
+#include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/study_words.hpp"
 
@@ -41,6 +44,10 @@ std::string next_step(const mc::Study& study, const identification::Identificati
   const std::string recordings = id.simulated ? "RECORDING" : shell_words(id.sources);
   if (!late_labels_text(id.spikes).empty())
     return "Next: correct the numbers of the positions in the recording and identify again.";
+  if (id.loop && std::ranges::all_of(study.filters, [&](const FilterSpec& filter) {
+        return id.leaves_out_loop(filter);
+      }))
+    return loop_next(*id.loop, study.filters.front(), 0, "identify");
   if (const auto* headings = other_headings(id)) return corrected_text(*headings, "identify");
   if (const auto doubt = other_latitude(id); doubt && (doubt->clock || doubt->alone()))
     return doubt->clock ? clock_next(*doubt->clock, "identify") : latitude_next(*doubt, "identify");

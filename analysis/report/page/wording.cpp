@@ -1,10 +1,17 @@
 #include "analysis/report/page/wording.hpp"
 
+#include "core/recording/recording_channels.hpp"
+
 namespace drift::report {
 namespace {
 
+/// " of b.csv" of a recording by its number, from 1.
+std::string of_named_recording(const RecordingNames& recordings, std::size_t number) {
+  return number == 0 || number > recordings.size() ? "" : " of " + recordings[number - 1];
+}
+
 /// What hangs on when the platform was turned, two sentences.
-std::string gap_text(const identification::MemoryGaps& gaps) {
+std::string gap_text(const identification::MemoryGaps& gaps, const RecordingNames& recordings) {
   constexpr double beyond_words = 0.01;  // a factor that says no more than "nothing is known"
   const MemoryOverGap& g = gaps.widest;
   const std::string more =
@@ -12,10 +19,12 @@ std::string gap_text(const identification::MemoryGaps& gaps) {
   const std::string factor =
       g.left < beyond_words ? "more than 100" : fmt::format("{:.3g}", 1.0 / g.left);
   return fmt::format(
-      "Between positions {} and {}{}, {:.3g} min are not recorded; that the platform was turned at "
+      "Between positions {} and {}{}{}, {:.3g} min are not recorded; that the platform was turned "
+      "at "
       "their beginning is assumed. If at their end, {} would be {} times smaller, and what is "
       "found beside it may be none.",
-      g.from + 1, g.to + 1, more, g.length / 60.0, g.term, factor);
+      g.from + 1, g.to + 1, of_named_recording(recordings, g.recording), more, g.length / 60.0,
+      g.term, factor);
 }
 
 }  // namespace
@@ -41,18 +50,23 @@ Cell parameter_cell(std::size_t param) {
           fmt::format("{} [{}]", parameter_key(param), parameter_unit(param))};
 }
 
-std::string spikes_text(const std::vector<identification::Spike>& spikes) {
-  constexpr std::string_view channels[] = {"acc_x",        "acc_y",         "acc_z",
-                                           "gimbal_outer", "gimbal_middle", "gimbal_inner"};
+std::string spike_channel(const identification::Spike& spike) {
+  const ChannelTriple& triple = spike.channel < 3 ? accelerometer_channels : gimbal_channels;
+  return std::string(triple.names[static_cast<std::size_t>(spike.channel % 3)]);
+}
+
+std::string spikes_text(const std::vector<identification::Spike>& spikes,
+                        const RecordingNames& recordings) {
   constexpr std::size_t most = 2;
   std::vector<std::string> places;
   for (const identification::Spike& s : spikes)
-    places.push_back(
-        fmt::format("{} in position {} at {:.6g} s", channels[s.channel], s.position, s.t));
+    places.push_back(fmt::format("{} in position {} at {:.6g} s{}", spike_channel(s), s.position,
+                                 s.t, of_named_recording(recordings, s.recording)));
   return places.empty() ? "" : fmt::format(" ({})", listed_up_to(places, most));
 }
 
-std::string late_labels_text(const std::vector<identification::Spike>& spikes) {
+std::string late_labels_text(const std::vector<identification::Spike>& spikes,
+                             const RecordingNames& recordings) {
   const std::size_t positions = identification::late_labels(spikes);
   return positions == 0
              ? ""
@@ -61,7 +75,7 @@ std::string late_labels_text(const std::vector<identification::Spike>& spikes) {
                    "they "
                    "do where the numbers of the positions change a row too late. Put them a row "
                    "earlier, or leave these rows out.",
-                   positions, spikes_text(spikes));
+                   positions, spikes_text(spikes, recordings));
 }
 
 std::string common_scale_text(const identification::CommonScale& common) {
@@ -99,10 +113,11 @@ std::string memory_text(const std::vector<MemoryLeftOut>& doubt) {
 }
 
 std::string memory_sentences(const std::vector<MemoryLeftOut>& doubt,
-                             const std::vector<identification::MemoryGaps>& gaps) {
+                             const std::vector<identification::MemoryGaps>& gaps,
+                             const RecordingNames& recordings) {
   std::vector<std::string> all;
   if (!doubt.empty()) all.push_back("The " + memory_text(doubt) + ".");
-  for (const identification::MemoryGaps& g : gaps) all.push_back(gap_text(g));
+  for (const identification::MemoryGaps& g : gaps) all.push_back(gap_text(g, recordings));
   return fmt::format("{}", fmt::join(all, " "));
 }
 

@@ -26,11 +26,19 @@ double unit_of(std::size_t param);
 /// "D_I_z [deg/h/g]"; for machines the key.
 Cell parameter_cell(std::size_t param);
 
-/// Where isolated samples are: " (acc_y in position 3 at 5400 s, gimbal_outer ... and 2 more)".
-/// Empty of none.
-std::string spikes_text(const std::vector<identification::Spike>& spikes);
+/// How each of several recordings is called, where something that is told lies in one of them;
+/// empty of one recording, which needs no name.
+using RecordingNames = std::vector<std::string>;
+
+/// The channel of an isolated sample, "gimbal_outer".
+std::string spike_channel(const identification::Spike& spike);
+/// Where isolated samples are: " (acc_y in position 3 at 5400 s of b.csv, gimbal_outer ... and 2
+/// more)". Empty of none.
+std::string spikes_text(const std::vector<identification::Spike>& spikes,
+                        const RecordingNames& recordings = {});
 /// That they are those of late numbers of positions, a sentence; empty where they are not.
-std::string late_labels_text(const std::vector<identification::Spike>& spikes);
+std::string late_labels_text(const std::vector<identification::Spike>& spikes,
+                             const RecordingNames& recordings = {});
 /// A sentence on what would move the three K1 alike.
 std::string common_scale_text(const identification::CommonScale& common);
 /// What to do about it, before the command is repeated.
@@ -43,7 +51,8 @@ std::string field_assumed_text(const Vec3& field_l);
 std::string memory_text(const std::vector<MemoryLeftOut>& doubt);
 /// The same and what gaps leave open, whole sentences; empty of nothing.
 std::string memory_sentences(const std::vector<MemoryLeftOut>& doubt,
-                             const std::vector<identification::MemoryGaps>& gaps);
+                             const std::vector<identification::MemoryGaps>& gaps,
+                             const RecordingNames& recordings = {});
 
 /// "" of 1, else "s".
 std::string_view plural(std::size_t count);

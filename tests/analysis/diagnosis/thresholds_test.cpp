@@ -147,6 +147,26 @@ TEST(Thresholds, EachOfSeveralCausesMustBringOneOfLogScore) {
   EXPECT_EQ(verdict_of(0.0, true, false, 1.01), Verdict::named);
 }
 
+TEST(Thresholds, ThatWholeRecordingsAreNotPredictedIsNotSaidOfPositions) {
+  search::Search found;
+  found.significant = true;
+  found.sets.emplace_back();
+  search::Posterior posterior;
+  posterior.consistent = posterior.noise_only = 0.0;
+  posterior.outside = 1.0;
+  for (const bool recordings : {true, false}) {
+    HeldOut held_out;
+    held_out.folds.resize(6);
+    held_out.recordings_disagree = recordings;
+    const Judged judged = judge({}, found, posterior, held_out, {}, NamedBy::held_out);
+    EXPECT_EQ(judged.verdict, Verdict::ambiguous);
+    ASSERT_EQ(judged.remarks.size(), 1u);
+    const auto* remark = std::get_if<remark::NotPredicted>(&judged.remarks.front());
+    ASSERT_NE(remark, nullptr);
+    EXPECT_EQ(remark->of_recordings, recordings);
+  }
+}
+
 TEST(Thresholds, WhatIsMoreProbablyChanceIsNoAlarm) {
   EXPECT_EQ(verdict_of(0.49, false, false), Verdict::unexplained);
   EXPECT_EQ(verdict_of(0.51, false, false), Verdict::consistent);

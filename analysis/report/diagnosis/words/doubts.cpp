@@ -8,7 +8,9 @@
 #include "analysis/report/diagnosis/words/alternative_words.hpp"
 #include "analysis/report/diagnosis/words/effect_words.hpp"
 #include "analysis/report/diagnosis/words/field_words.hpp"
+#include "analysis/report/diagnosis/words/remark_words.hpp"
 #include "analysis/report/diagnosis/words/verdict_openings.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
@@ -207,6 +209,10 @@ const remark::TimesInstead* times_beside_cause(const Diagnosis& d) {
 
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
   std::vector<std::pair<std::string, std::string>> all;
+  const RecordingNames recordings = names_of_recordings(d.where.recordings);
+  if (const auto* left_out = remark_in<remark::LoopLeftOut>(d))
+    all.emplace_back(loop_left_out,
+                     in_words(Remark(*left_out), instrument_of(d), d.where.recordings));
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d))
     all.emplace_back(beyond_its_prior, beyond_prior_text(*beyond) + ".");
   if (const auto* beyond = remark_in<remark::BeyondPrior>(d); beyond != nullptr && beyond->scales)
@@ -216,16 +222,16 @@ std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {
       times != nullptr && d.verdict == Verdict::ambiguous && times_beside_cause(d) == nullptr)
     all.emplace_back("Clock", times_in_brief(times->clock));
   if (const auto* off = remark_in<remark::MemoryOff>(d))
-    all.emplace_back("Memory", memory_sentences(off->terms, off->gaps));
+    all.emplace_back("Memory", memory_sentences(off->terms, off->gaps, recordings));
   const auto* samples = remark_in<remark::SamplesLeftOut>(d);
   if (labels_are_late(d))
-    all.emplace_back("Labels", late_labels_text(samples->removed));
+    all.emplace_back("Labels", late_labels_text(samples->removed, recordings));
   else if (samples != nullptr && !samples->removed.empty())
     all.emplace_back(
         "Outliers",
         fmt::format("{} isolated sample{} left out{}: far from those around.",
                     samples->removed.size(), samples->removed.size() == 1 ? " is" : "s are",
-                    spikes_text(samples->removed)));
+                    spikes_text(samples->removed, recordings)));
   if (std::string text = field_doubt(d); !text.empty()) all.emplace_back("Field", std::move(text));
   return all;
 }

@@ -46,13 +46,15 @@ std::string heading_text(const identification::HeadingDoubt& doubt);
 /// Whether samples were left out because the numbers of their positions are late.
 bool labels_are_late(const diagnosis::Diagnosis& diagnosis);
 
-/// What a reader must hear with the verdict, whatever it is: parameters of the model far from their
-/// priors, memory of another path than the platform's or of a gap, isolated samples that were left
-/// out, and a magnetic field that was assumed where a cause or such a parameter hangs on it.
-/// Sentences with the word that heads each. Parameters far from their priors are in the short
+/// What a reader must hear with the verdict, whatever it is: a loop, parameters of the model far
+/// from their priors, memory of another path than the platform's or of a gap, isolated samples that
+/// were left out, and a magnetic field that was assumed where a cause or such a parameter hangs on
+/// it. Sentences with the word that heads each. Parameters far from their priors are in the short
 /// answer whatever the verdict is.
 std::vector<std::pair<std::string, std::string>> doubts_of(const diagnosis::Diagnosis& diagnosis);
 inline constexpr std::string_view beyond_its_prior = "Prior";  ///< heads that sentence
+/// Heads the first of them, of a loop that the nominal model leaves out: whatever the verdict is.
+inline constexpr std::string_view loop_left_out = "Loop";
 
 /// Times that alone keep the only cause from being named: the verdict says so. Null otherwise.
 const diagnosis::remark::TimesInstead* times_beside_cause(const diagnosis::Diagnosis& diagnosis);

@@ -11,7 +11,9 @@
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/words/doubts.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
+#include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
@@ -40,10 +42,15 @@ std::string as_well_text(double gain) {
 /// One overload for each kind of remark.
 struct Words {
   Instrument instrument;
+  RecordingNames recordings;
 
   std::string operator()(const Input& r) const { return r.text; }
 
   std::string operator()(const GimbalOffZero& r) const { return r.text; }
+
+  std::string operator()(const LoopLeftOut& r) const {
+    return loop_left_out_text(r.loop, recordings, {r.filter});
+  }
 
   std::string operator()(const OrNoise& r) const {
     return fmt::format(
@@ -68,7 +75,11 @@ struct Words {
            "worse: it is not confirmed (held_out_gain of each cause in diagnosis.json).";
   }
 
-  std::string operator()(const NotPredicted&) const {
+  std::string operator()(const NotPredicted& r) const {
+    if (r.of_recordings)
+      return "The cause fits, and held-out positions are predicted better with it, but whole "
+             "recordings are not, each from a fit to the others: what it stands for may be in one "
+             "recording only. Diagnose each recording alone.";
     return "The cause fits, but held-out positions are not predicted better with it. An effect "
            "that lives in one position cannot be confirmed by the others: repeat that position.";
   }
@@ -89,7 +100,7 @@ struct Words {
         "{} isolated sample{} {} left out{} and {} given less weight: their residuals are larger "
         "than Gaussian noise gives.",
         r.removed.size(), plural(r.removed.size()), r.removed.size() == 1 ? "was" : "were",
-        spikes_text(r.removed), r.lowered);
+        spikes_text(r.removed, recordings), r.lowered);
   }
 
   std::string operator()(const FreeInputExplains& r) const {
@@ -163,7 +174,9 @@ struct Words {
                        with, as_well_text(r.gain), r.of_case ? on_a_case : on_a_platform);
   }
 
-  std::string operator()(const MemoryOff& r) const { return memory_sentences(r.terms, r.gaps); }
+  std::string operator()(const MemoryOff& r) const {
+    return memory_sentences(r.terms, r.gaps, recordings);
+  }
 
   std::string operator()(const TimesInstead& r) const { return times_instead_text(r.clock); }
 
@@ -197,8 +210,9 @@ struct Words {
 
 }  // namespace
 
-std::string in_words(const diagnosis::Remark& remark, Instrument instrument) {
-  return std::visit(Words{instrument}, remark);
+std::string in_words(const diagnosis::Remark& remark, Instrument instrument,
+                     const std::vector<diagnosis::RecordingSpan>& recordings) {
+  return std::visit(Words{instrument, names_of_recordings(recordings)}, remark);
 }
 
 std::string cannot_tell_equations(const OtherEquation& open, std::string_view positions) {

@@ -8,6 +8,13 @@ namespace {
 
 using diagnosis::RecordingSpan;
 
+/// "recording 2 (b.csv)" of number 2, and "recording 2" where that is all it is called.
+std::string numbered(const std::vector<RecordingSpan>& recordings, std::size_t number) {
+  const std::string plain = fmt::format("recording {}", number);
+  const bool named = number <= recordings.size() && recordings[number - 1].name != plain;
+  return named ? fmt::format("{} ({})", plain, recordings[number - 1].name) : plain;
+}
+
 std::string bare(const diagnosis::Shape& s, const std::vector<RecordingSpan>& recordings) {
   using Kind = diagnosis::Shape::Kind;
   switch (s.kind) {
@@ -18,11 +25,11 @@ std::string bare(const diagnosis::Shape& s, const std::vector<RecordingSpan>& re
     case Kind::none_simple:
       return "of no simple shape: several effects, or many parameters, may be missing at once";
     case Kind::ramp:
-      return "grows evenly with time";
+      return recordings.empty() ? "grows evenly with time"
+                                : "grows evenly with time in each recording";
     case Kind::decay_from_start:
-      return fmt::format(
-          "dies away from the start of the test with a time constant of about {:.0f} min",
-          s.seconds / 60.0);
+      return fmt::format("dies away from the start of {} with a time constant of about {:.0f} min",
+                         recordings.empty() ? "the test" : "each recording", s.seconds / 60.0);
     case Kind::decay_in_position:
       return fmt::format("dies away within every position with a time constant of about {:.0f} min",
                          s.seconds / 60.0);
@@ -41,6 +48,9 @@ std::string bare(const diagnosis::Shape& s, const std::vector<RecordingSpan>& re
                          "xyz"[s.other_axis]);
     case Kind::one_position:
       return fmt::format("is present in position {} alone", s.position);
+    case Kind::one_recording:
+      return fmt::format("is present in {} alone",
+                         numbered(recordings, static_cast<std::size_t>(s.recording)));
     case Kind::covariate:
       return fmt::format("goes with the recorded {}", s.covariate);
     case Kind::of_cause:
@@ -77,9 +87,7 @@ std::string onset_text(double t, const std::vector<RecordingSpan>& recordings, T
   const RecordingSpan& r = recordings[k - 1];
   if (k == 1 || t > r.start_s)
     return fmt::format("sets in at {:.0f} s of {} and stays", t - r.offset_s, r.name);
-  const std::string number = fmt::format("recording {}", k);
-  return fmt::format("is another from {} on",
-                     r.name == number ? number : fmt::format("{} ({})", number, r.name));
+  return fmt::format("is another from {} on", numbered(recordings, k));
 }
 
 std::string shape_text(const diagnosis::RecoveredSignal& signal,

@@ -125,7 +125,8 @@ std::vector<ShownCandidate> shown_candidates(const Diagnosis& d, std::size_t mos
 
 std::vector<std::string> remarks_of(const Diagnosis& d) {
   std::vector<std::string> all;
-  for (const Remark& r : d.remarks) all.push_back(in_words(r, instrument_of(d)));
+  for (const Remark& r : d.remarks)
+    all.push_back(in_words(r, instrument_of(d), d.where.recordings));
   for (std::string& left_out : not_examined_sentences(d.not_examined, d.where.recordings))
     all.push_back(std::move(left_out));
   if (const auto& recordings = d.where.recordings; !recordings.empty()) {
@@ -148,6 +149,12 @@ const RecordingSpan* recording_at(const std::vector<RecordingSpan>& recordings, 
   const auto at =
       std::ranges::find_if(recordings, [&](const RecordingSpan& r) { return t <= r.end_s; });
   return at == recordings.end() ? &recordings.back() : &*at;
+}
+
+RecordingNames names_of_recordings(const std::vector<RecordingSpan>& recordings) {
+  RecordingNames names;
+  for (const RecordingSpan& r : recordings) names.push_back(r.name);
+  return names;
 }
 
 std::string channel_in_words(const std::string& name) {
@@ -227,63 +234,12 @@ std::string place_text(const Where& where) {
              : "above all from " + window_text(where.windows.front(), where.recordings);
 }
 
-std::string held_out_sentence(const HeldOut& held) {
-  const auto chi2 = [](double value) {
-    return std::abs(value) < 10.0 ? decimal_text(value, 2) : number_text(value);
-  };
-  const auto said = [](double gain) {
-    return std::isfinite(gain) ? fmt::format(", log score {:+.3g}", gain) : std::string();
-  };
-  std::string out;
-  if (!held.folds.empty())
-    out = fmt::format(
-        "Data held out of the fit are predicted {}: chi-square per degree of freedom {} → {} in {} "
-        "folds{}.",
-        held.log_score_gain > 0.0 ? "better" : "no better", chi2(held.chi2_per_dof_before),
-        chi2(held.chi2_per_dof_after), held.folds.size(), said(held.log_score_gain));
-  if (!held.recordings.empty())
-    out += fmt::format(
-        "{}Whole recordings, each from a fit to the others, are predicted {}: {} → {}{}.",
-        out.empty() ? "" : " ", held.recording_gain > 0.0 ? "better" : "no better",
-        chi2(held.recording_chi2_per_dof_before), chi2(held.recording_chi2_per_dof_after),
-        said(held.recording_gain));
-  return out;
-}
-
-std::string held_out_text(const diagnosis::Diagnosis& d, bool several) {
-  const diagnosis::HeldOut& held = d.fit.held_out;
-  if (held.folds.empty() && held.recordings.empty())
-    return "nothing was held out of the fit to judge it";
-  // The score weighs each error by how surely it was predicted; the errors themselves are not.
-  const bool some_grow =
-      held.improves && d.has_patch &&
-      std::ranges::any_of(d.errors, [](const diagnosis::ErrorOfKind& k) {
-        return k.after > k.before && number_text(k.after, 2) != number_text(k.before, 2);
-      });
-  return fmt::format("with {}, held-out {} are predicted {}{}", several ? "them" : "it",
-                     d.of_case ? "dwells" : "positions", held.improves ? "better" : "no better",
-                     some_grow
-                         ? fmt::format(" by their score (log score {:+.1f}±{:.1f}, errors weighed "
-                                       "by their sigmas), though not all errors become smaller",
-                                       held.log_score_gain, held.log_score_gain_sigma)
-                         : "");
-}
-
 std::string misfit_text(const diagnosis::Diagnosis& d) {
   const double band = d.fit.band_high;
   if (d.nearest_known || !(band > 0.0) || !(d.fit.chi2_per_dof_before > band)) return "";
   return fmt::format(
       ", chi-square per degree of freedom is {:.3g} where noise makes {:.3g} to {:.3g}",
       d.fit.chi2_per_dof_before, d.fit.band_low, band);
-}
-
-std::string errors_text(const diagnosis::Diagnosis& d) {
-  if (d.errors.empty() || !d.has_patch) return "";
-  std::vector<std::string> numbers;
-  for (const diagnosis::ErrorOfKind& k : d.errors)
-    numbers.push_back(
-        fmt::format("{} {} → {} {}", k.what, number_text(k.before), number_text(k.after), k.unit));
-  return fmt::format(" Error on held-out data: {}.", fmt::join(numbers, ", "));
 }
 
 }  // namespace drift::report

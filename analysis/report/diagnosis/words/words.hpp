@@ -5,6 +5,7 @@
 
 #include "analysis/diagnosis/findings/diagnosis.hpp"
 #include "analysis/report/diagnosis/words/instrument.hpp"
+#include "analysis/report/page/wording.hpp"
 
 namespace drift::report {
 
@@ -38,6 +39,9 @@ std::vector<std::string> remarks_of(const diagnosis::Diagnosis& diagnosis);
 /// The recording that a time of the timeline falls into; null where there is one recording only.
 const diagnosis::RecordingSpan* recording_at(
     const std::vector<diagnosis::RecordingSpan>& recordings, double t_s);
+
+/// How each of several recordings is called; empty of one.
+RecordingNames names_of_recordings(const std::vector<diagnosis::RecordingSpan>& recordings);
 
 /// What time axes of a page are in: short tests are shown in seconds, long ones in hours.
 enum class TimeUnit { seconds, hours };
