@@ -81,7 +81,7 @@ TEST(SeveralRecordings, ACompensatedFilterIsRefusedOneThatDoesNotTellWhatTheLoop
 }
 
 TEST(SeveralRecordings, OfACaseAreRefusedAsTheHelpSays) {
-  const std::string study = config("strapdown_xsens.toml");
+  const std::string study = test::config("strapdown_xsens.toml");
   for (const char* command : {"identify ", "diagnose "}) {
     const Answer a = driftscope(command + study + " a.csv b.csv");
     EXPECT_EQ(a.code, usage_error) << a.err;
