@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/words.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -39,18 +40,27 @@ double usual_run(const Channel& c, const Channel* position, double step) {
 }
 
 Steps steps_of(const std::vector<Recording>& recordings, const ChannelTriple& channels) {
+  constexpr double much_less = 3.0;
   Steps found;
-  for (const Recording& r : recordings)
+  std::string file;
+  double least = std::numeric_limits<double>::infinity();  // of the recordings
+  for (const Recording& r : recordings) {
+    double worst = 0.0;
     for (const std::string_view name : channels.names) {
       const Channel *c = r.find(name), *position = r.find("position");
       const auto step = c != nullptr ? reading_step(*c, position) : std::nullopt;
       if (!step) continue;
       if (std::ranges::find(found.names, name) == found.names.end()) found.names.emplace_back(name);
       const double noise = *step * std::sqrt(usual_run(*c, position, *step) / 12.0);
-      if (noise > found.noise)
-        found = {std::move(found.names), std::string(c->unit.symbol.view()), *step / c->unit.to_si,
-                 noise};
+      worst = std::max(worst, noise);
+      if (!(noise > found.noise)) continue;
+      file = r.source;
+      found = {std::move(found.names), std::string(c->unit.symbol.view()), *step / c->unit.to_si,
+               noise};
     }
+    least = std::min(least, worst);
+  }
+  if (much_less * least < found.noise) found.file = file;
   return found;
 }
 
@@ -59,11 +69,18 @@ void take(const Steps& steps, double& noise, bool& rounded, const Unit& unit,
   if (!(steps.noise > noise)) return;
   rounded = true;
   const double both = std::hypot(steps.noise, noise);
-  remarks.push_back(fmt::format(
-      "{} {} written in steps of {:.3g} {}: with the noise of rounding it is {:.3g} {} in place of "
-      "the {:.3g} {} of [readout]",
-      listed(steps.names, "and"), steps.names.size() == 1 ? "is" : "are", steps.step, steps.unit,
-      both / unit.to_si, unit.symbol.view(), noise / unit.to_si, unit.symbol.view()));
+  const std::string of_file = steps.file.empty() ? "" : steps.file + ": ";
+  const std::string of_all =
+      steps.file.empty() ? ""
+                         : ", which is that of all recordings: finer ones count for less beside "
+                           "this one than alone";
+  remarks.push_back(
+      fmt::format("{}{} {} written in steps of {:.3g} {}: with the noise of rounding it is {:.3g} "
+                  "{} in place of "
+                  "the {:.3g} {} of [readout]{}",
+                  of_file, listed(steps.names, "and"), steps.names.size() == 1 ? "is" : "are",
+                  steps.step, steps.unit, both / unit.to_si, unit.symbol.view(), noise / unit.to_si,
+                  unit.symbol.view(), of_all));
   noise = both;
 }
 

@@ -15,6 +15,7 @@ struct Steps {
   std::string unit{};  ///< of the file
   double step = 0.0;   ///< in it
   double noise = 0.0;  ///< [g], [rad]
+  std::string file{};  ///< whose it is, where another recording has much less of it; else ""
 };
 
 /// What the readouts of recordings add by being coarse.
@@ -31,7 +32,8 @@ struct Rounding {
 Rounding rounding_of(const std::vector<Recording>& recordings);
 
 /// Adds that to a noise that is declared and less: rounding to 0.1 deg is no readout of 5 arcsec. A
-/// declared noise that is larger has it in it. What was taken is remarked.
+/// declared noise that is larger has it in it. What was taken is remarked, and of which file it is:
+/// there is one readout for all recordings.
 void take_rounding(const Rounding& rounding, Readout& readout, std::vector<std::string>& remarks);
 
 }  // namespace drift::preparation

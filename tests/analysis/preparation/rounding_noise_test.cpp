@@ -48,6 +48,25 @@ TEST(RoundingNoise, OfRowsThatReadOneValueIsOneError) {
   EXPECT_NEAR(found.gimbals.noise, 0.1 * detail::deg * std::sqrt(5.0 / 12.0), 1e-9);
 }
 
+TEST(RoundingNoise, OfOneOfTwoRecordingsIsSaidOfThatFile) {
+  Recording coarse = drifting(0.1), fine = drifting(1e-7);
+  coarse.source = "coarse.csv";
+  fine.source = "fine.csv";
+  for (const auto& both : {std::vector{coarse, fine}, std::vector{fine, coarse}}) {
+    Readout readout;
+    std::vector<std::string> remarks;
+    take_rounding(rounding_of(both), readout, remarks);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_EQ(remarks[0].find("coarse.csv: "), 0u) << remarks[0];
+    EXPECT_NE(remarks[0].find("that of all recordings"), std::string::npos) << remarks[0];
+  }
+  std::vector<std::string> remarks;
+  Readout readout;
+  take_rounding(rounding_of({coarse, coarse}), readout, remarks);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks[0].find("gimbal"), 0u) << "all are as coarse: " << remarks[0];
+}
+
 TEST(RoundingNoise, LeavesWhatIsDeclaredLargerOrWrittenFinely) {
   for (const double step : {0.001, 1e-7}) {
     Readout readout;
