@@ -15,12 +15,12 @@ namespace {
 using config::Option;
 using config::Section;
 
-constexpr std::string_view key = "turn";
-constexpr const char* expected =
+constexpr std::string_view turn_key = "turn";
+constexpr const char* turn_expected =
     "a turn about an axis of the platform, such as \"10 deg about y\", or a list of turns, done "
     "one "
     "after the other";
-constexpr Option angle_option{key, unit::deg, -360.0, 360.0, "about an axis of the platform"};
+constexpr Option angle_option{turn_key, unit::deg, -360.0, 360.0, "about an axis of the platform"};
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 
 /// A turn in words, with one blank between two: "10 deg", "y".
@@ -48,11 +48,11 @@ struct Words {
 };
 
 std::optional<AxisTurn> read_turn(Section& section, const config::Node& node) {
-  const std::string full = section.full(key);
+  const std::string full = section.full(turn_key);
   if (!node.is(config::Node::Kind::string) || node.text.size() > config::longest_text) {
     section.report().error(
         node.at, fmt::format("'{}' is {} (expected {}). Write {} = \"10 deg about y\"", full,
-                             config::describe(node), expected, key));
+                             config::describe(node), turn_expected, turn_key));
     return std::nullopt;
   }
   const Words words(node.text);
@@ -83,7 +83,7 @@ std::optional<AxisTurn> read_turn(Section& section, const config::Node& node) {
 
 std::vector<AxisTurn> read_turns(Section& section) {
   std::vector<AxisTurn> turns;
-  const config::Node* node = section.take(key, Section::Kind::text_or_list, expected);
+  const config::Node* node = section.take(turn_key, Section::Kind::text_or_list, turn_expected);
   if (node == nullptr) return turns;
   const bool list = node->is(config::Node::Kind::array) && !node->items.empty();
   bool right = true;
@@ -93,7 +93,8 @@ std::vector<AxisTurn> read_turns(Section& section) {
     if (turn) turns.push_back(std::move(*turn));
   }
   if (right)
-    section.report().given(section.full(key), list ? to_toml(*node) : turns.front().text, node->at);
+    section.report().given(section.full(turn_key), list ? to_toml(*node) : turns.front().text,
+                           node->at);
   return turns;
 }
 

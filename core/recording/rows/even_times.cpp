@@ -12,7 +12,7 @@
 namespace drift {
 namespace {
 
-constexpr double same = 1e-4;             // part of a distance by which equal ones differ
+constexpr double same_distance = 1e-4;    // part of a distance by which equal ones differ
 constexpr double least_share = 0.1;       // of all distances that are of either kind
 constexpr double lost_share = 1.0 / 3.0;  // below: rows may be lost where one is twice the other
 constexpr double fewest_shared = 3.0;     // distances of no length
@@ -66,15 +66,16 @@ std::optional<WrittenSteps> steps_of(const Recording& r, const std::vector<doubl
       high = std::max(high, d);
     }
   const double step = high - low;
-  if (!(step > same * high)) return std::nullopt;
+  if (!(step > same_distance * high)) return std::nullopt;
   const double whole = std::round(low / step);
-  if ((low > 0.0 && whole < 1.0) || std::abs(low - whole * step) > same * high) return std::nullopt;
+  if ((low > 0.0 && whole < 1.0) || std::abs(low - whole * step) > same_distance * high)
+    return std::nullopt;
   double lows = 0.0, highs = 0.0;
   for (const EvenPart& s : parts)
     for (std::size_t k = s.first + 1; k <= s.last; ++k) {
       const double d = time[k] - time[k - 1];
-      const bool is_low = std::abs(d - low) < same * high;
-      if (!is_low && !(std::abs(d - high) < same * high)) return std::nullopt;
+      const bool is_low = std::abs(d - low) < same_distance * high;
+      if (!is_low && !(std::abs(d - high) < same_distance * high)) return std::nullopt;
       (is_low ? lows : highs) += 1.0;
     }
   const double share = highs / (lows + highs);
@@ -119,7 +120,7 @@ Spacings spacings_of(const std::vector<double>& time, const EvenPart& s, double 
     const bool left = spread_at(low + third, time, s) < spread_at(high - third, time, s);
     (left ? high : low) += left ? -third : third;
   }
-  const double best = 0.5 * (low + high), widest = step * (1.0 - same);
+  const double best = 0.5 * (low + high), widest = step * (1.0 - same_distance);
   if (spread_at(best, time, s) > widest) return {best, -HUGE_VAL};
   const auto end = [&](double outside) {
     double inside = best;
@@ -138,10 +139,10 @@ Spacings spacings_of(const std::vector<double>& time, const EvenPart& s, double 
 std::optional<double> roundest(const Spacings& all, double step) {
   const double middle = 0.5 * (all.least + all.most), finest = step / 60.0;
   for (double power = std::pow(10.0, std::ceil(std::log10(all.most)));
-       power >= finest * (1.0 - same); power *= 0.1)
+       power >= finest * (1.0 - same_distance); power *= 0.1)
     for (const double unit : {power, 0.5 * power, 0.2 * power}) {
       const double multiple = unit * std::round(middle / unit);
-      if (unit >= finest * (1.0 - same) && multiple > 0.0 && multiple >= all.least &&
+      if (unit >= finest * (1.0 - same_distance) && multiple > 0.0 && multiple >= all.least &&
           multiple <= all.most)
         return multiple;
     }
