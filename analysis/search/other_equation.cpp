@@ -1,13 +1,13 @@
 #include "analysis/search/other_equation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/search/promising.hpp"
 #include "analysis/search/settle_noise.hpp"
+#include "core/estimate/closure/closure_posterior.hpp"
 
 namespace drift::search {
 namespace {
@@ -33,15 +33,6 @@ std::optional<Choice> change_of_equation(const inference::CandidateSet& set) {
   return {};
 }
 
-/// Whether two fits of one model ended at the same point: nearer than a hundredth of a sigma.
-bool ended_alike(const BatchResult& a, const BatchResult& b) {
-  constexpr double near = 1e-2;
-  const auto &one = a.estimate.parameters, &other = b.estimate.parameters;
-  return std::ranges::equal(one, other, [](const ParameterEstimate& p, const ParameterEstimate& q) {
-    return std::abs(p.value - q.value) <= near * p.sigma;
-  });
-}
-
 }  // namespace
 
 std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const MeasuredTest& test) {
@@ -58,7 +49,7 @@ std::optional<OtherEquation> fit_other_equation(const Fitted& nominal, const Mea
   };
   for (const Theta& start : {here, make_layout(out.filter).theta}) {
     BatchResult fit = fit_batch_from(out.filter, test, start, nominal.fit.psi0_l);
-    if (std::isfinite(out.gain) && ended_alike(fit, out.fit)) continue;
+    if (std::isfinite(out.gain) && ended_at_one_point(fit, out.fit)) continue;
     inference::LinearProblem problem = inference::linear_problem(out.filter, test, fit, {});
     problem.weight = nominal.problem.weight;
     double gain = gain_under(problem, nominal.noise.model);
