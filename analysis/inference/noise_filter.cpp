@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/inference/noise/noise_states.hpp"
+#include "analysis/inference/noise/noise_covariance.hpp"
 #include "core/estimate/lanes.hpp"
 
 namespace drift::inference {
@@ -46,91 +46,67 @@ constexpr int lanes_of() {
   return fit > 4 ? 4 : fit < 2 ? 2 : fit;
 }
 
+/// Calls body.template operator()<count>(column) for blocks of `most` lanes of columns from one on,
+/// then for what is left.
+template <int most, class Body>
+void for_blocks(std::size_t column, std::size_t width, Body& body) {
+  for (; column + most * lane_width <= width; column += most * lane_width)
+    body.template operator()<most>(column);
+  if constexpr (most > 1) for_blocks<most - 1>(column, width, body);
+}
+
 }  // namespace
 
 NoiseFilter::NoiseFilter(const MeasuredRows& rows, const NoiseModel& noise) : rows_(rows.rows()) {
-  const int used = NoiseStates(noise).count;
-  states_ = rounded_up(used);
+  states_ = rounded_up(NoiseStates(noise).count);
   const auto all = static_cast<std::size_t>(rows_);
   H_.resize(all * static_cast<std::size_t>(states_));
-  gain_.resize(H_.size());
   reads_others_.resize(all);
   root_.resize(all);
-  for_states(states_, [&]<int states>() { find_gains<states>(rows, noise, used); });
+  inverse_root_.resize(all);
+  for_states(states_, [&]<int states>() { find_gains<states>(rows, noise); });
 }
 
 template <int states>
-void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise, int used) {
+void NoiseFilter::find_gains(const MeasuredRows& rows, const NoiseModel& noise) {
   constexpr int others = states - 3;
-  constexpr int whole = static_cast<int>(whole_lanes(states));  // rows: Eigen handles them by lanes
-  using Pairs = Eigen::Matrix<double, whole, states>;           // by its columns, each whole lanes
   const NoiseStates s(noise);
-  Pairs P = Pairs::Zero();
-  const OverPairs initial = initial_covariance(s, noise);
-  P.topLeftCorner(used, used) = initial;
+  NoiseCovariance<states> P(s, noise);
   events_.reserve(4 * rows.drives.size());
   moves_.reserve(3 * rows.drives.size() * 4 * static_cast<std::size_t>(others));
+  gain_.resize(H_.size() + P.whole);  // whole lanes are written
   Eigen::Index next = 0;
   double product = 1.0;  // whose log is taken now and then
   walk(
       rows, noise, s,
       [&](Anew what) {
-        if (what == Anew::recording) {
-          P.topLeftCorner(used, used) = initial;
-          events_.push_back({next, states, 0});
-          return;
-        }
-        P.template topRows<3>().setZero();
-        P.template leftCols<3>().setZero();
-        P.template topLeftCorner<3, 3>().setIdentity();
-        events_.push_back({next, 3, 0});
+        P.begin(what);
+        events_.push_back({next, what == Anew::recording ? states : 3, 0});
       },
       [&](const NoiseStep& step) {
         if constexpr (others > 0) {
           events_.push_back({next, 0, moves_.size()});
           moves_.resize(moves_.size() + 4 * others);
-          double* const move = moves_.data() + events_.back().move;
-          Eigen::Matrix<double, whole, 1> decay = Eigen::Matrix<double, whole, 1>::Ones();
-          for (int m = 0; m < others; ++m) {
-            for (int i = 0; i < 3; ++i) move[4 * m + i] = step.drive(i, m);
-            move[4 * m + 3] = decay[3 + m] = step.decay[m];
+          double* move = moves_.data() + events_.back().move;
+          for (int m = 0; m < others; ++m, move += 4) {
+            for (int i = 0; i < 3; ++i) move[i] = step.drive(i, m);
+            move[3] = step.decay[m];
           }
-          // F P F' of F = [1, drive; 0, decay].
-          for (int c = 0; c < states; ++c) {
-            for (int m = 0; m < others; ++m)
-              P.col(c).template head<3>() += P(3 + m, c) * step.drive.col(m);
-            P.col(c).array() *= decay.array();
-          }
-          for (int m = 0; m < others; ++m) {
-            for (int i = 0; i < 3; ++i) P.col(i) += P.col(3 + m) * step.drive(i, m);
-            P.col(3 + m) *= step.decay[m];
-            P(3 + m, 3 + m) += step.variance[m];
-          }
-          if constexpr (others >= 3)
-            if (step.kicked) {  // of the first of the others
-              P.template topLeftCorner<3, 3>() += step.kick * step.kick.transpose();
-              P.template block<3, 3>(0, 3) += step.kick;
-              P.template block<3, 3>(3, 0) += step.kick.transpose();
-            }
-          P.template topLeftCorner<3, 3>() += step.anew * step.anew.transpose();
+          P.move(step);
         }
       },
       [&](Eigen::Index k, const OverStates& given, double sigma) {
         const auto at = static_cast<std::size_t>(k);
-        double* const h = H_.data() + at * states;  // zero from `used` on
-        double* const gain = gain_.data() + at * states;
-        std::copy_n(given.data(), used, h);
-        Eigen::Matrix<double, whole, 1> Ph = P.col(0) * h[0];
-        for (int m = 1; m < states; ++m) Ph += P.col(m) * h[m];
-        double S = sigma * sigma;
-        for (int m = 0; m < states; ++m) S += h[m] * Ph[m];
-        root_[at] = std::sqrt(S);
-        const double inverse = 1.0 / S;
+        double* const h = H_.data() + at * states;
+        int seen = 0;
         for (int m = 0; m < states; ++m) {
-          gain[m] = Ph[m] * inverse;
-          P.col(m) -= Ph * gain[m];
+          h[m] = m < s.count ? given[m] : 0.0;
+          seen |= m >= 3 && h[m] != 0.0;
         }
-        reads_others_[at] = std::any_of(h + 3, h + states, [](double x) { return x != 0.0; });
+        reads_others_[at] = static_cast<unsigned char>(seen);
+        const double S = P.take(h, seen != 0, sigma, gain_.data() + at * states);
+        root_[at] = std::sqrt(S);
+        inverse_root_[at] = 1.0 / root_[at];
         product *= S;
         if (!(product > 1e-150 && product < 1e150))
           log_det_ += std::log(std::exchange(product, 1.0));
@@ -148,24 +124,33 @@ NoiseFilter::Columns NoiseFilter::begin(std::size_t width, Eigen::Index first) c
 template <int states, int lanes, NoiseFilter::Way way>
 void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, const double* from,
                             double* to, Eigen::Index count, double* state) const {
+  // What is stored must not seem to change what the loop reads; states are numbered by constants
+  // alone, so that they stay in registers.
   const std::size_t width = columns.width;
+  const double *const H = H_.data(), *const gains = gain_.data(), *const moves = moves_.data();
+  const double* const scale = way == Way::whiten ? inverse_root_.data() : root_.data();
+  const unsigned char* const reads_others = reads_others_.data();
+  const Event *event = events_.data() + columns.event, *const end = events_.data() + events_.size();
   const Lanes zero = broadcast(0.0);
   Lanes x[states][lanes];
   const auto at = [&](auto* of, std::size_t row, int l) {
     return of + row * width + column + static_cast<std::size_t>(l) * lane_width;
   };
+#pragma GCC unroll 19
   for (int m = 0; m < states; ++m)
+#pragma GCC unroll 4
     for (int l = 0; l < lanes; ++l) x[m][l] = load(at(state, static_cast<std::size_t>(m), l));
-  std::size_t event = columns.event;
   for (Eigen::Index r = 0; r < count; ++r) {
     const auto k = static_cast<std::size_t>(columns.row + r);
-    for (; event < events_.size() && events_[event].row == columns.row + r; ++event) {
-      if (const int anew = events_[event].anew; anew > 0) {
-        for (int m = 0; m < anew; ++m)
-          for (int l = 0; l < lanes; ++l) x[m][l] = zero;
+    for (; event != end && event->row == columns.row + r; ++event) {
+      if (const int anew = event->anew; anew > 0) {
+#pragma GCC unroll 19
+        for (int m = 0; m < states; ++m)
+#pragma GCC unroll 4
+          for (int l = 0; l < lanes; ++l) x[m][l] = m < anew ? zero : x[m][l];
         continue;
       }
-      const double* move = moves_.data() + events_[event].move;
+      const double* move = moves + event->move;
 #pragma GCC unroll 16
       for (int m = 3; m < states; ++m, move += 4) {
 #pragma GCC unroll 4
@@ -177,45 +162,53 @@ void NoiseFilter::run_lanes(const Columns& columns, std::size_t column, const do
         }
       }
     }
-    const double *h = H_.data() + k * states, *gain = gain_.data() + k * states;
+    const double *h = H + k * states, *gain = gains + k * states;
     constexpr double sign = way == Way::whiten ? -1.0 : 1.0;
     Lanes e[lanes], y[lanes];
+#pragma GCC unroll 4
     for (int l = 0; l < lanes; ++l) {
       e[l] = load(at(from, static_cast<std::size_t>(r), l));
-      if constexpr (way == Way::colour) e[l] = mul_add(e[l], broadcast(root_[k]), zero);
+      if constexpr (way == Way::colour) e[l] = mul_add(e[l], broadcast(scale[k]), zero);
       y[l] = e[l];
     }
 #pragma GCC unroll 3
     for (int m = 0; m < 3; ++m)
+#pragma GCC unroll 4
       for (int l = 0; l < lanes; ++l) y[l] = mul_add(x[m][l], broadcast(sign * h[m]), y[l]);
-    if (reads_others_[k]) {
+    if (reads_others[k] != 0) {
 #pragma GCC unroll 16
       for (int m = 3; m < states; ++m)
+#pragma GCC unroll 4
         for (int l = 0; l < lanes; ++l) y[l] = mul_add(x[m][l], broadcast(sign * h[m]), y[l]);
     }
     // The innovation is what came out on one way, what went in on the other.
     const Lanes* innovation = way == Way::whiten ? y : e;
-#pragma GCC unroll 16
+#pragma GCC unroll 19
     for (int m = 0; m < states; ++m)
+#pragma GCC unroll 4
       for (int l = 0; l < lanes; ++l) x[m][l] = mul_add(innovation[l], broadcast(gain[m]), x[m][l]);
+#pragma GCC unroll 4
     for (int l = 0; l < lanes; ++l) {
-      if constexpr (way == Way::whiten) y[l] = mul_add(y[l], broadcast(1.0 / root_[k]), zero);
+      if constexpr (way == Way::whiten) y[l] = mul_add(y[l], broadcast(scale[k]), zero);
       store(at(to, static_cast<std::size_t>(r), l), y[l]);
     }
   }
+#pragma GCC unroll 19
   for (int m = 0; m < states; ++m)
+#pragma GCC unroll 4
     for (int l = 0; l < lanes; ++l) store(at(state, static_cast<std::size_t>(m), l), x[m][l]);
 }
 
 template <int states>
 void NoiseFilter::run(Way way, Columns& columns, const double* from, double* to,
                       Eigen::Index count) const {
-  for_lanes<lanes_of<states>()>(columns.width, [&]<int lanes>(std::size_t column) {
-    double* state = columns.state.data();
+  double* const state = columns.state.data();
+  const auto block = [&]<int lanes>(std::size_t column) {
     way == Way::whiten
         ? run_lanes<states, lanes, Way::whiten>(columns, column, from, to, count, state)
         : run_lanes<states, lanes, Way::colour>(columns, column, from, to, count, state);
-  });
+  };
+  for_blocks<lanes_of<states>()>(0, columns.width, block);
   columns.row += count;
   while (columns.event < events_.size() && events_[columns.event].row < columns.row)
     ++columns.event;

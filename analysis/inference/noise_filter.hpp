@@ -46,7 +46,7 @@ class NoiseFilter {
     std::size_t move = 0;
   };
   template <int states>
-  void find_gains(const MeasuredRows& rows, const NoiseModel& noise, int used);
+  void find_gains(const MeasuredRows& rows, const NoiseModel& noise);
   template <int states>
   void run(Way way, Columns& columns, const double* from, double* to, Eigen::Index count) const;
   template <int states, int lanes, Way way>
@@ -58,9 +58,9 @@ class NoiseFilter {
   Eigen::Index rows_ = 0;
   std::vector<Event> events_;
   std::vector<double> moves_;
-  std::vector<double> H_, gain_;    ///< states by states of every row
-  std::vector<bool> reads_others_;  ///< rows on which more than the attitude is seen
-  std::vector<double> root_;        ///< sigma of each innovation
+  std::vector<double> H_, gain_;             ///< states by states of every row
+  std::vector<unsigned char> reads_others_;  ///< rows on which more than the attitude is seen
+  std::vector<double> root_, inverse_root_;  ///< sigma of each innovation
   double log_det_ = 0.0;
 };
 
