@@ -35,6 +35,25 @@ TEST(QuasiNewton, FindsTheLogOfASigma) {
   EXPECT_NEAR(m.x[0], std::log(3.0), std::sqrt(1e-3 / n) + 0.5e-3);
 }
 
+TEST(QuasiNewton, ASmallStepThatGainsWhatItPromisedIsTheLast) {
+  // The curvature is given 1.2 times too large; a step promises 0.5 g^2 / 1.2 a = 0.008. What is
+  // left of it is a thirtieth, below what counts, and the curvature is read off the gain.
+  constexpr double a = 50.0;
+  int calls = 0;
+  const auto parabola = [&](const VecX& x) {
+    ++calls;
+    return -0.5 * a * x[0] * x[0];
+  };
+  const double begin = std::sqrt(2.0 * 1.2 * 0.008 / a);
+  const Maximum m =
+      maximise(parabola, VecX::Constant(1, begin), MatX::Constant(1, 1, 1.0 / (1.2 * a)));
+  EXPECT_EQ(calls, 3);  // the beginning, its slope, the step
+  EXPECT_GT(m.value, -1e-3);
+  // Differences forward by 1e-3 have the slope too large by 1e-3 / 2 of the begin, and what it
+  // promises and gains makes three times as much of it.
+  EXPECT_NEAR(m.inverse_curvature(0, 0) * a, 1.0, 3.0 * 0.5e-3 / begin);
+}
+
 TEST(QuasiNewton, StaysWhereNothingIsBetter) {
   const Maximum m = maximise([](const VecX& x) { return x.norm() > 0.0 ? -1.0 : 0.0; },
                              VecX::Zero(2), MatX::Identity(2, 2));
