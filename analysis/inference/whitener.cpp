@@ -1,6 +1,7 @@
 #include "analysis/inference/whitener.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/estimate/lanes.hpp"
 
@@ -9,27 +10,40 @@ namespace {
 
 using Go = void (NoiseFilter::*)(NoiseFilter::Columns&, const double*, double*, Eigen::Index) const;
 
-/// Calls each(row, column) for all of a part, a cache line of columns at a time: one side has its
-/// columns together, the other its rows.
+/// Calls each(row, column) for all of a part, squares of a cache line by a cache line at a time:
+/// one side has its columns together, the other its rows.
 template <class Each>
 void for_tiles(Eigen::Index rows, Eigen::Index columns, Each&& each) {
   constexpr Eigen::Index line = 8;
-  for (Eigen::Index first = 0; first < columns; first += line)
-    for (Eigen::Index r = 0; r < rows; ++r)
-      for (Eigen::Index c = first; c < std::min(first + line, columns); ++c) each(r, c);
+  for (Eigen::Index c = 0; c < columns; c += line)
+    for (Eigen::Index r = 0; r < rows; r += line)
+      if (c + line <= columns && r + line <= rows) {
+#pragma GCC unroll 8
+        for (Eigen::Index i = 0; i < line; ++i)
+#pragma GCC unroll 8
+          for (Eigen::Index k = 0; k < line; ++k) each(r + i, c + k);
+      } else {
+        for (Eigen::Index i = r; i < std::min(r + line, rows); ++i)
+          for (Eigen::Index k = c; k < std::min(c + line, columns); ++k) each(i, k);
+      }
 }
 
 MatX through(const NoiseFilter& filter, Go go, MatX columns, Eigen::Index first) {
   constexpr Eigen::Index at_once = 64;  // rows: they stay in the cache
   const std::size_t width = whole_lanes(static_cast<std::size_t>(columns.cols()));
   NoiseFilter::Columns at = filter.begin(width, first);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> part =
-      MatX::Zero(at_once, static_cast<Eigen::Index>(width));
-  for (Eigen::Index start = 0; start < columns.rows(); start += at_once) {
-    const Eigen::Index count = std::min(at_once, columns.rows() - start);
-    for_tiles(count, columns.cols(), [&](auto r, auto c) { part(r, c) = columns(start + r, c); });
-    (filter.*go)(at, part.data(), part.data(), count);
-    for_tiles(count, columns.cols(), [&](auto r, auto c) { columns(start + r, c) = part(r, c); });
+  std::vector<double> rows(static_cast<std::size_t>(at_once) * width, 0.0);
+  double *const part = rows.data(), *const all = columns.data();
+  const auto wide = static_cast<Eigen::Index>(width), high = columns.rows();
+  for (Eigen::Index start = 0; start < high; start += at_once) {
+    const Eigen::Index count = std::min(at_once, high - start);
+    for_tiles(count, columns.cols(), [=](Eigen::Index r, Eigen::Index c) {
+      part[r * wide + c] = all[c * high + start + r];
+    });
+    (filter.*go)(at, part, part, count);
+    for_tiles(count, columns.cols(), [=](Eigen::Index r, Eigen::Index c) {
+      all[c * high + start + r] = part[r * wide + c];
+    });
   }
   return columns;
 }
