@@ -50,7 +50,9 @@ TEST(CandidateTable, OfAConsumersUnitSizesAreThoseOfThePriorThatWasSearchedWith)
   // The cause that is named has the same size.
   for (const search::Cause& c : d.causes)
     for (const search::CauseParameter& p : c.parameters)
-      if (p.param == s_a_z) EXPECT_NEAR(p.value, row->amplitude, p.sigma + row->sigma);
+      if (p.param == s_a_z) {
+        EXPECT_NEAR(p.value, row->amplitude, p.sigma + row->sigma);
+      }
 }
 
 }  // namespace
