@@ -15,7 +15,6 @@
 
 namespace drift::report {
 
-using identification::BeyondPrior;
 using strapdown::CaseIdentification;
 
 namespace {
@@ -29,19 +28,20 @@ std::string per_dof(const EstimateResult& estimate) {
 }
 
 /// Parameters that are too far from their priors for these to be right.
-std::vector<BeyondPrior> far_of_case(const EstimateResult& estimate) {
+std::vector<identification::BeyondPrior> far_of_case(const EstimateResult& estimate) {
   if (estimate.parameters.empty()) return {};
   return identification::beyond_prior(
       estimate, identification::farthest_by_chance(estimate.parameters.size(),
                                                    inference::FitLimits::far_from_prior));
 }
 
-const BeyondPrior& farthest_of(const std::vector<BeyondPrior>& far) {
-  return *std::ranges::max_element(far, {}, &BeyondPrior::sigmas);
+const identification::BeyondPrior& farthest_of(
+    const std::vector<identification::BeyondPrior>& far) {
+  return *std::ranges::max_element(far, {}, &identification::BeyondPrior::sigmas);
 }
 
 std::string of_priors_text(const EstimateResult& estimate) {
-  const std::vector<BeyondPrior> far = far_of_case(estimate);
+  const std::vector<identification::BeyondPrior> far = far_of_case(estimate);
   const bool one = far.size() == 1;
   return fmt::format(
       "Misfit of priors alone: chi-square per degree of freedom {} where noise makes 1, and {} "
