@@ -13,10 +13,15 @@ constexpr std::string_view green = "\x1b[32m", red = "\x1b[1;31m", yellow = "\x1
                            plain = "\x1b[0m";
 
 constexpr std::pair<std::string_view, std::string_view> verdicts[] = {
-    {"ok", green},           {"misfit", red},
-    {"Consistent:", green},  {"Named:", yellow},
-    {"Ambiguous:", red},     {"Unexplained:", red},
-    {report::agrees, green}, {report::something_missing, red}};
+    {"ok", green},
+    {"misfit", red},
+    {"Consistent:", green},
+    {"Named:", yellow},
+    {"Ambiguous:", red},
+    {"Unexplained:", red},
+    {report::agrees, green},
+    {report::something_missing, red},
+    {report::something_may_be_missing, yellow}};
 
 bool part_of_word(std::string_view text, std::size_t at) {
   if (at >= text.size()) return false;

@@ -65,7 +65,10 @@ search::CandidateScore line_of(const search::Fitted& nominal, const search::Sear
   const VecX a = search::expected_amplitudes(p, v.columns);
   line.size_sigma = a.norm();
   if (c.params.size() == 1 && s.dof == 1) {
-    const double scale = spec.prior.sigma();  // file unit per prior sigma
+    // File unit per prior sigma, of the prior that was searched with: the library's is none of a
+    // unit whose gyros do not see the Earth.
+    const auto column = static_cast<std::size_t>(v.columns[0]);
+    const double scale = nominal.set.signatures[column].unit / spec.unit.to_si;
     const double information = p.C(v.columns[0], v.columns[0]);
     line.param = c.params.front();
     line.amplitude = p.g[v.columns[0]] / information * scale;

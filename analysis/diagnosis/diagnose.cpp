@@ -96,7 +96,7 @@ double other_equation_gain(const search::Search& found, const Judged& judged,
                            const MeasuredTest& test) {
   constexpr double silent = std::numeric_limits<double>::quiet_NaN();
   if (judged.verdict == Verdict::unexplained) return silent;
-  if (judged.verdict == Verdict::consistent)
+  if (!judged.names_causes())
     return std::isfinite(found.other_equation) ? found.other_equation : silent;
   if (found.sets.empty()) return silent;
   if (const auto& causes = found.sets.front().choices;
@@ -179,11 +179,10 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   // With the cause in the mean, what had been taken for noise because of it is none any more.
   const bool alarm = judged.verdict != Verdict::consistent;
   NoiseFound noise = noise_found(best && alarm ? best->after : nominal, fitted.spikes);
-  if (!alarm && found.noise_alone) noise.findings = found.noise_alone->findings;
+  if (!judged.names_causes() && found.noise_alone) noise.take(*found.noise_alone);
   const bool with_room = !alarm && world.with_room;
   if (with_room) noise.findings = world.with_room->noise;
-  CausesFound causes =
-      judged.verdict == Verdict::consistent ? CausesFound{} : causes_of(nominal, found);
+  CausesFound causes = judged.names_causes() ? causes_of(nominal, found) : CausesFound{};
   for (std::size_t k = 0; k < member_gains.size() && k < causes.causes.size(); ++k)
     causes.causes[k].held_out_gain = member_gains[k];
   Located place =
@@ -223,6 +222,7 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   d.inseparable = std::move(causes.inseparable);
   d.candidates = candidate_table(nominal, found);
   d.noise = std::move(noise.findings);
+  d.driving_noise = noise.driving;
   d.other_equation_gain = other_equation_gain(found, judged, test);
   d.not_examined = not_examined(nominal, d.causes, test.timeline);
   d.probabilities = probabilities(found, posterior, world.other_way, d.noise);
@@ -237,11 +237,12 @@ Diagnosis diagnose(const FilterSpec& nominal_filter, const MeasuredTest& given,
   append(d.remarks, std::move(noise.remarks));
   append(d.remarks, judged.remarks);
   append(d.remarks, judged.one_gyro);
+  append(d.remarks, judged.likelier_missing);
   if (best && alarm) append(d.remarks, left_not_white(d.fit.whiteness));
   append(d.remarks, std::move(causes.remarks));
   if (d.verdict == Verdict::unexplained) d.nearest_known = nearest_known(nominal, found);
   if (d.nearest_known) append(d.remarks, strongest_left(nominal, found));
-  if (d.verdict == Verdict::consistent) append(d.remarks, noise_or_effect(nominal));
+  if (!judged.names_causes()) append(d.remarks, noise_or_effect(nominal));
   append(d.remarks, beyond);
   append(d.remarks, world.other);
   const std::span<const search::Refit> sets(found.sets);

@@ -52,17 +52,23 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
              const std::vector<double>& member_gains, NamedBy by) {
   Judged out;
   constexpr double credible = inference::SearchLimits::credible;
+  const double noise = posterior.consistent + posterior.noise_only;
   const bool or_priors = posterior.wrong_priors + posterior.other_priors > 1.0 - credible;
   if (!found.significant) {
     out.one_gyro = noise_of_one_axis(nominal);
     if (const double gain = log_gain_of_more_noise(nominal.projector->marginal());
         gain > inference::NoiseLimits::far_likelier)
       out.of_no_noise = std::exp(-gain);
-    if (out.one_gyro || out.of_no_noise) out.verdict = Verdict::unexplained;
+    if (out.one_gyro || out.of_no_noise) {
+      out.verdict = Verdict::unexplained;
+    } else if (const double nothing = noise + posterior.wrong_priors;
+               nothing < 1.0 - inference::SearchLimits::chance) {
+      out.verdict = Verdict::ambiguous;
+      out.likelier_missing = {nothing};
+    }
     return out;
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
-  const double noise = posterior.consistent + posterior.noise_only;
   // Chance is what is more probable; noise or priors that explain the same as an effect must be
   // credible.
   if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;

@@ -8,9 +8,15 @@
 
 namespace drift::diagnosis {
 
+void NoiseFound::take(const inference::NoiseEstimate& noise) {
+  findings = noise.findings;
+  driving = noise.driven ? std::optional(noise.model) : std::nullopt;
+}
+
 NoiseFound noise_found(const search::Fitted& fitted,
                        const std::vector<identification::Spike>& spikes) {
-  NoiseFound out{fitted.noise.findings, {}};
+  NoiseFound out;
+  out.take(fitted.noise);
   std::size_t lowered = 0;
   for (const double w : fitted.problem.weight) lowered += w < 1.0;
   const std::size_t removed = spikes.size();

@@ -13,6 +13,11 @@ namespace drift::diagnosis {
 struct NoiseFound {
   std::vector<inference::NoiseFinding> findings;
   std::vector<Remark> remarks;
+  /// Where it drives the platform beyond what is declared.
+  std::optional<inference::NoiseModel> driving = {};
+
+  /// Another noise in the place of the one that was estimated.
+  void take(const inference::NoiseEstimate& noise);
 };
 
 /// spikes: samples left out as outliers.

@@ -23,4 +23,10 @@ double farthest_by_chance(std::size_t parameters, double chance);
 /// Chance that the farthest of so many lies as far.
 double chance_of_farthest(std::size_t parameters, double sigmas);
 
+/// The estimate of a batch fit as the data have it by themselves: its statistic without what the
+/// priors of its parameters cost, over the degrees of freedom that are left of what was measured,
+/// one taken off for each parameter as far as the data know it. Where priors are wrong and the
+/// model is right, that is chi-square over its degrees of freedom still.
+EstimateResult of_data_alone(EstimateResult estimate);
+
 }  // namespace drift::identification

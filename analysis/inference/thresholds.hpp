@@ -143,7 +143,9 @@ struct NoisePrior {
 struct SearchLimits {
   static constexpr double alpha = 0.02;  ///< chance of a false alarm over all that is tried
   /// Probability of nothing missing above which what is significant is taken for chance, and of
+  /// something missing above which what is not significant is not taken for nothing, and of
   /// something outside the library above which it is said beside a cause: more probable than not.
+  /// Test: Thresholds.WhatIsMoreProbablyChance..., Judge.WhatIsMoreProbablyMissing...
   static constexpr double chance = 0.5;
   /// That what is listed must hold together. Test: CredibleSet.ListsWhat...
   static constexpr double credible = 0.95;

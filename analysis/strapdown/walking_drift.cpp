@@ -11,10 +11,15 @@ namespace drift::strapdown {
 EstimateResult under_walk(const FilterSpec& filter, const MeasuredTest& test,
                           const BatchResult& fit) {
   const inference::NoiseModel declared = search::declared_noise(filter);
-  if (declared.drift_random_walk == 0.0 || fit.estimate.status == EstimateStatus::diverged)
-    return fit.estimate;
+  return declared.drift_random_walk == 0.0 ? fit.estimate
+                                           : under_noise(filter, test, fit, declared);
+}
+
+EstimateResult under_noise(const FilterSpec& filter, const MeasuredTest& test,
+                           const BatchResult& fit, const inference::NoiseModel& noise) {
+  if (fit.estimate.status == EstimateStatus::diverged) return fit.estimate;
   const inference::LinearProblem problem = inference::linear_problem(filter, test, fit, {});
-  const inference::Projector projector(problem, declared);
+  const inference::Projector projector(problem, noise);
   const inference::Projector::Fit best = projector.fit();
   EstimateResult out = fit.estimate;
   if (!best.x.allFinite() || !best.covariance.allFinite()) return out;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/inference/noise/noise_model.hpp"
 #include "core/estimate/batch.hpp"
 
 namespace drift::strapdown {
@@ -9,5 +10,8 @@ namespace drift::strapdown {
 /// that noise correlates them, by generalised least squares about the fit. The fit's own otherwise.
 EstimateResult under_walk(const FilterSpec& filter, const MeasuredTest& test,
                           const BatchResult& fit);
+/// The same under a noise that is given. fit: whole.
+EstimateResult under_noise(const FilterSpec& filter, const MeasuredTest& test,
+                           const BatchResult& fit, const inference::NoiseModel& noise);
 
 }  // namespace drift::strapdown

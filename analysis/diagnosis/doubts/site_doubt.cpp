@@ -34,12 +34,17 @@ bool has_no_usual_size(const search::Cause& cause) {
   });
 }
 
+/// Under which noise explanations of a test on a case were weighed.
+enum class CaseNoise { declared, found };
+
 /// Log odds of another latitude, or of other times, against the effects that were found: one study
 /// of 1000 says another latitude, and one recording other times; of the effects of the library one
 /// is as likely as another. Infinite where none was found. Latitudes and times are weighed under
 /// the noise of the better fit: on a case that is as the rows scatter, which is declared, and so
-/// are causes; of a platform under the noise that was found with them, which may drive it.
-double log_odds(double log_evidence, const Diagnosis& d) {
+/// are causes unless those were weighed under the noise that was found, too; of a platform under
+/// the noise that was found with them, which may drive it.
+double log_odds(double log_evidence, const Diagnosis& d,
+                CaseNoise noise_of_case = CaseNoise::declared) {
   std::size_t visible = 0;
   for (const search::CandidateScore& c : d.candidates) visible += c.dof > 0 ? 1 : 0;
   const double one_effect = std::log(inference::PosteriorPrior::library /
@@ -47,7 +52,8 @@ double log_odds(double log_evidence, const Diagnosis& d) {
   double best = -std::numeric_limits<double>::infinity();
   for (const search::Cause& c : d.causes) {
     const auto together = std::ranges::count(d.causes, c.set, &search::Cause::set);
-    const double log_bayes = d.of_case ? c.log_bayes_as_declared : c.log_bayes;
+    const bool declared = d.of_case && noise_of_case == CaseNoise::declared;
+    const double log_bayes = declared ? c.log_bayes_as_declared : c.log_bayes;
     best = std::max(best, log_bayes + static_cast<double>(together) * one_effect);
   }
   return log_evidence + std::log(SiteLimits::another) - best;
@@ -174,20 +180,31 @@ SiteFinding site_doubt(const mc::Study& study, const std::vector<Recording>& rec
 }
 
 std::optional<remark::TimesInstead> times_instead(const ClockOfMisfit& clock_of_misfit,
-                                                  const Diagnosis& d) {
+                                                  const Diagnosis& d,
+                                                  const ClockOfMisfit& under_found_noise) {
   if (d.verdict == Verdict::consistent) return std::nullopt;
   if (d.other_latitude && d.other_latitude->clock) return std::nullopt;
   const auto dof = static_cast<double>(d.fit.dof);
   const bool found = !d.causes.empty();
   const double gain = dof * (d.fit.chi2_per_dof_before - (found ? d.fit.chi2_per_dof_after : 1.0));
   if (!(gain > 0.0)) return std::nullopt;
-  const auto clock = clock_of_misfit(inference::SiteLimits::promise * gain);
+  auto clock = clock_of_misfit(inference::SiteLimits::promise * gain);
   if (!clock || !clock->evident()) return std::nullopt;
   const bool as_well = found ? leaves_as_little(clock->chi2_per_dof_after, d)
                              : stats::misfit_chance(clock->chi2_per_dof_after, dof) >=
                                    inference::SearchLimits::alpha;
   if (!as_well) return std::nullopt;
-  return remark::TimesInstead{*clock, std::exp(log_odds(clock->log_evidence, d))};
+  auto noise = CaseNoise::declared;
+  if (under_found_noise) {
+    noise = CaseNoise::found;
+    clock = under_found_noise(0.0);
+    if (!clock || !clock->evident()) return std::nullopt;
+  }
+  const double odds = std::exp(log_odds(clock->log_evidence, d, noise));
+  // On a case another clock is an effect among others. Of a platform a survey and a clock can both
+  // be looked up, and what either leaves is one: it is said however rare such a clock is.
+  if (d.of_case && !(odds * inference::RemarkLimits::decided >= 1.0)) return std::nullopt;
+  return remark::TimesInstead{*clock, odds};
 }
 
 std::optional<remark::TimesInstead> times_instead(const mc::Study& study,

@@ -63,8 +63,12 @@ std::optional<remark::TimesInstead> times_instead(const mc::Study& study,
 /// The clock that leaves least of the misfit, where it promises as much off chi-square
 /// (identification::clock_of_misfit()).
 using ClockOfMisfit = std::function<std::optional<identification::ClockDoubt>(double promised)>;
-/// The same of any test.
+/// The same of any test. under_found_noise: where noise was found that drives the platform beyond
+/// what is declared, the clock that leaves least under it; such noise may be all that other times
+/// stand for, so it must be evident then as well, and is the one that is told. Of a case times are
+/// told where they have at least one in RemarkLimits::decided of the odds against the causes.
 std::optional<remark::TimesInstead> times_instead(const ClockOfMisfit& clock_of_misfit,
-                                                  const Diagnosis& diagnosis);
+                                                  const Diagnosis& diagnosis,
+                                                  const ClockOfMisfit& under_found_noise = {});
 
 }  // namespace drift::diagnosis

@@ -23,6 +23,7 @@
 #include "analysis/identification/heading_doubt.hpp"
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/inference/noise/noise_finding.hpp"
+#include "analysis/inference/noise/noise_model.hpp"
 #include "analysis/search/cause.hpp"
 #include "core/base/linalg.hpp"
 #include "core/physics/model_spec.hpp"
@@ -51,6 +52,8 @@ struct Diagnosis {
   std::vector<NotExamined> not_examined;
   Probabilities probabilities;
   std::vector<inference::NoiseFinding> noise;
+  /// The same, where it drives the platform beyond what is declared.
+  std::optional<inference::NoiseModel> driving_noise;
   /// Twice the log evidence that eq. (5) instead of a nominal eq. (6), or the reverse, gains; NaN
   /// where the nominal coupling is neither, and where what is missing has not been found. With the
   /// best explanation in the model, if that is not this very change.

@@ -54,6 +54,11 @@ struct NotPredicted {
 struct OrNoise {
   double probability;
 };
+/// Nothing is significant, and still that something is missing is more probable than that nothing
+/// is, noise as declared or not.
+struct LikelierMissing {
+  double nothing = 0.0;  ///< probability that nothing is missing
+};
 /// With the cause in the model the innovations are not white; p by chance, without it and with it.
 struct LeftNotWhite {
   double before = 1.0, after = 1.0;
@@ -167,13 +172,15 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::LoopLeftOut, remark::JustSignificantLeft,
-    remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
-    remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
-    remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-    remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
-    remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
-    remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark =
+    std::variant<remark::Input, remark::GimbalOffZero, remark::LoopLeftOut,
+                 remark::JustSignificantLeft, remark::LambdaNotSettled, remark::MemberNotConfirmed,
+                 remark::NotPredicted, remark::OrNoise, remark::LikelierMissing,
+                 remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains,
+                 remark::LeftNotWhite, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
+                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherPriors,
+                 remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
+                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -149,6 +149,9 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
     return "Next: diagnose each recording alone: what was found may be in one of them only.";
   if (!d.advice.empty() && !asks_for_nothing(d.advice.front()))
     return "Next: " + advice_in_brief(d.advice);
+  if (remark_in<remark::LikelierMissing>(d))
+    return "Next: diagnose a second recording, a longer one if it can be had: an effect comes "
+           "again, noise does not.";
   if (const std::string apart = apart_next(d); !apart.empty()) return apart;
   if (d.verdict == Verdict::named && d.has_patch)
     return fmt::format(
@@ -199,7 +202,9 @@ std::string verdict_word(const Diagnosis& d) {
     case Verdict::named:
       return "Named: the data single out what is missing.";
     case Verdict::ambiguous:
-      return "Ambiguous: something is missing, and several causes remain possible.";
+      return remark_in<remark::LikelierMissing>(d)
+                 ? "Ambiguous: something may be missing, or it is noise."
+                 : "Ambiguous: something is missing, and several causes remain possible.";
     case Verdict::unexplained:
       break;
   }
@@ -228,8 +233,10 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
                : d.verdict == Verdict::consistent && but_far_from_priors(d).empty() &&
                        remark_in<remark::LoopLeftOut>(d) == nullptr
                    ? Tone::good
-               : d.verdict == Verdict::named || d.verdict == Verdict::consistent ? Tone::doubtful
-                                                                                 : Tone::bad;
+               : d.verdict == Verdict::named || d.verdict == Verdict::consistent ||
+                       remark_in<remark::LikelierMissing>(d)
+                   ? Tone::doubtful
+                   : Tone::bad;
   const auto add = [&](Weight weight, std::string_view head, const std::string& sentence) {
     if (!sentence.empty()) brief.more.add(weight, fmt::format("{}: {}", head, sentence));
   };

@@ -9,14 +9,6 @@ namespace drift::report {
 namespace {
 
 using identification::BeyondPrior;
-constexpr std::size_t most_named = 6;  // keys that are named
-
-std::vector<std::string> keys_of(std::vector<BeyondPrior> far) {
-  std::ranges::stable_sort(far, std::greater{}, &BeyondPrior::sigmas);
-  std::vector<std::string> keys;
-  for (const BeyondPrior& p : far) keys.push_back(parameter_key(p.param));
-  return keys;
-}
 
 std::vector<BeyondPrior> far_parameters(const FilterView& v) {
   const EstimateResult& result = judged(v);
@@ -31,12 +23,12 @@ std::string beyond_text(const FilterView& v) {
   const std::vector<std::string> keys = beyond_prior(v);
   if (keys.empty()) return "";
   const bool one = keys.size() == 1;
-  return fmt::format(
-      "Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): wrong priors, missing "
-      "physics, or a study that is not of this recording (latitude, axes, unit of time).",
-      v.spec().name, one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
-      inference::FitLimits::beyond_prior, one ? "its" : "their",
-      one ? "its prior's mean" : "the means of their priors", listed_up_to(keys, most_named));
+  return fmt::format("Filter {}: {} further than {:g} of {} prior sigmas from {} ({}): {}.",
+                     v.spec().name,
+                     one ? "1 parameter lies" : fmt::format("{} parameters lie", keys.size()),
+                     inference::FitLimits::beyond_prior, one ? "its" : "their",
+                     one ? "its prior's mean" : "the means of their priors",
+                     listed_up_to(keys, most_far_named), behind_far_priors);
 }
 
 std::string far_text(const FilterView& v) {
@@ -47,19 +39,27 @@ std::string far_text(const FilterView& v) {
   return fmt::format(
       "Filter {}: far from the mean of {} prior: {} ({} prior sigmas; chance that one of {} is: "
       "{}). Missing physics, or another drift equation, may hide in what a filter estimates.",
-      v.spec().name, far.size() == 1 ? "its" : "their", listed_up_to(keys_of(far), most_named),
+      v.spec().name, far.size() == 1 ? "its" : "their",
+      listed_up_to(keys_of_far(far), most_far_named),
       far.size() == 1 ? number_text(sigmas, 2) : "up to " + number_text(sigmas, 2), of,
       p_text(identification::chance_of_farthest(of, sigmas)));
 }
 
 }  // namespace
 
+std::vector<std::string> keys_of_far(std::vector<BeyondPrior> far) {
+  std::ranges::stable_sort(far, std::greater{}, &BeyondPrior::sigmas);
+  std::vector<std::string> keys;
+  for (const BeyondPrior& p : far) keys.push_back(parameter_key(p.param));
+  return keys;
+}
+
 std::vector<std::string> beyond_prior(const FilterView& v) {
-  return keys_of(identification::beyond_prior(judged(v)));
+  return keys_of_far(identification::beyond_prior(judged(v)));
 }
 
 std::vector<std::string> far_from_prior(const FilterView& v) {
-  return keys_of(far_parameters(v));
+  return keys_of_far(far_parameters(v));
 }
 
 SaidOfPriors priors_text(const FilterView& v) {

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "analysis/identification/beyond_prior.hpp"
 #include "analysis/identification/filter_odds.hpp"
 #include "analysis/report/identify/sections.hpp"
 
@@ -31,6 +35,14 @@ std::string outside_text(const FilterView& v);
 /// small chance alone (FitLimits::far_from_prior), the farthest first: physics that is missing,
 /// another drift equation too, may be taken up by what a filter estimates, so that it fits.
 std::vector<std::string> far_from_prior(const FilterView& v);
+/// What parameters may be behind that no prior of the study would have where a fit takes them.
+inline constexpr std::string_view behind_far_priors =
+    "wrong priors, missing physics, or a study that is not of this recording (latitude, axes, unit "
+    "of time)";
+/// Keys that are named of such parameters, at most.
+inline constexpr std::size_t most_far_named = 6;
+/// Keys of such parameters, the farthest first.
+std::vector<std::string> keys_of_far(std::vector<identification::BeyondPrior> far);
 /// Of such parameters, or of those that no prior of the study would have there (beyond_prior());
 /// empty where there is none.
 struct SaidOfPriors {

@@ -8,12 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "analysis/identification/common_scale.hpp"
-#include "analysis/identification/identify.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
+#include "analysis/report/strapdown/case_misfit.hpp"
 #include "core/base/words.hpp"
 #include "mc/study/own_terms_check.hpp"
 
@@ -122,31 +121,6 @@ std::string gaps_text(const strapdown::CaseStudy& s) {
   return n == 0 ? "" : fmt::format(" ({} more {} left out for gaps)", n, n == 1 ? "is" : "are");
 }
 
-/// What moves the three K1 alike, unless the study is of another place.
-std::optional<identification::CommonScale> gravity_off(const CaseIdentification& id) {
-  if (id.latitude) return std::nullopt;
-  return identification::common_scale(id.fits.front().fit.estimate);
-}
-
-/// Whether the recording misfits by nothing but the priors of the three K1.
-bool misfit_of_gravity_alone(const CaseIdentification& id) {
-  const EstimateResult& estimate = id.fits.front().fit.estimate;
-  return identification::misfit(estimate) && gravity_off(id) &&
-         !identification::misfit(identification::without_prior_cost(estimate));
-}
-
-/// What diagnose does for a recording that is a misfit, and for one that is none.
-std::string next_of(const CaseIdentification& id) {
-  if (id.latitude) return latitude_next(*id.latitude, "identify");
-  if (gravity_off(id) &&
-      (misfit_of_gravity_alone(id) || !identification::misfit(id.fits.front().fit.estimate)))
-    return gravity_next("identify");
-  return fmt::format("Next: driftscope diagnose, on the same study and recording, says {}.",
-                     identification::misfit(id.fits.front().fit.estimate)
-                         ? "what is missing, in the model or in the noise"
-                         : "whether an effect is missing from the model");
-}
-
 InBrief in_brief(const CaseIdentification& id) {
   const CaseFit& first = id.fits.front();
   const EstimateResult& estimate = first.fit.estimate;
@@ -162,6 +136,7 @@ InBrief in_brief(const CaseIdentification& id) {
   InBrief brief;
   const std::string fits = fmt::format("chi-square per degree of freedom {}",
                                        number_text(estimate.statistic_per_dof(), 3));
+  const CaseMisfit misfit = misfit_of(id);
   if (id.latitude)
     brief.verdict = fmt::format(
         "Wrong latitude{}: the gyros at rest see the Earth as it turns at {}, not at {:.3f} deg; "
@@ -169,16 +144,8 @@ InBrief in_brief(const CaseIdentification& id) {
         id.latitude->alone() ? "" : " and more", latitude_text(*id.latitude),
         id.latitude->declared / unit::deg.to_si, number_text(id.latitude->chi2_per_dof_after, 3),
         number_text(id.latitude->chi2_per_dof_before, 3), upside_down_text(*id.latitude));
-  else if (misfit_of_gravity_alone(id))
-    brief.verdict = fmt::format(
-        "Misfit of priors alone: {} where noise makes 1, and {} without what the priors of K1_x, "
-        "K1_y and K1_z cost, which one cause moves.",
-        fits, number_text(identification::without_prior_cost(estimate).statistic_per_dof(), 3));
-  else if (identification::misfit(estimate))
-    brief.verdict = fmt::format(
-        "Misfit: {} where noise makes 1: something is missing or wrong, and no number below is to "
-        "be trusted.",
-        fits);
+  else if (misfit != CaseMisfit::none)
+    brief.verdict = case_misfit_text(id, misfit);
   else if (at_rest)
     brief.verdict = fmt::format("Found: one rest of {:.0f} s and no turn; {}.",
                                 dwells.front().duration(), told);
@@ -187,9 +154,10 @@ InBrief in_brief(const CaseIdentification& id) {
         fmt::format("Found: {} and {}{}; {}, {}.", counted(dwells.size(), "dwell"),
                     counted(id.study.test.ways.size(), "turn"), gaps_text(id.study), told, fits);
   const auto gravity = gravity_off(id);
-  brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad
-               : gravity                                       ? Tone::doubtful
-                                                               : Tone::good;
+  brief.tone = id.latitude || misfit == CaseMisfit::of_model || misfit == CaseMisfit::of_gravity
+                   ? Tone::bad
+               : gravity || misfit == CaseMisfit::of_priors ? Tone::doubtful
+                                                            : Tone::good;
   if (gravity) brief.more.add(Weight::wrong, "Gravity: " + common_scale_text(*gravity));
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
@@ -201,7 +169,7 @@ InBrief in_brief(const CaseIdentification& id) {
   if (!unseen.empty())
     brief.more.add(Weight::note,
                    fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
-  brief.next = next_of(id);
+  brief.next = case_next(id, misfit);
   return brief;
 }
 

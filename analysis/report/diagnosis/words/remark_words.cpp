@@ -60,6 +60,16 @@ struct Words {
         "not.",
         r.probability);
   }
+
+  std::string operator()(const LikelierMissing& r) const {
+    return fmt::format(
+        "Nothing is significant, and still that nothing is missing, noise as declared or not, has "
+        "a "
+        "probability of {:.2g} only: effects are listed by their probability, and none is named. A "
+        "repeated recording tells an effect, which comes again, from noise, which does not.",
+        r.nothing);
+  }
+
   std::string operator()(const JustSignificantLeft&) const {
     return "With it in the model something is left that is just significant: chance, or not the "
            "whole story. It is listed, not named.";

@@ -10,6 +10,7 @@
 #include "analysis/inference/noise/noise_component.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/report/diagnosis/words/alternative_words.hpp"
+#include "analysis/report/diagnosis/words/chance_words.hpp"
 #include "analysis/report/diagnosis/words/doubts.hpp"
 #include "analysis/report/diagnosis/words/field_words.hpp"
 #include "analysis/report/diagnosis/words/not_examined_words.hpp"
@@ -121,31 +122,6 @@ std::string ambiguous_text(const Diagnosis& d) {
                      priors, fmt::join(words, ", or "), twins_text(d, all));
 }
 
-/// "shows as much with a chance of 0.2".
-std::string shows_as_much(double p_value) {
-  constexpr double nearly_always = 0.995;  // what two digits would call 1
-  return p_value > nearly_always
-             ? "nearly always shows as much"
-             : fmt::format("shows as much with a chance of {}", p_text(p_value));
-}
-
-/// Why what noise alone seldom shows is taken for noise: nothing is more probable.
-std::string chance_text(const Diagnosis& d) {
-  const Probabilities& p = d.probabilities;
-  if (d.p_value > inference::SearchLimits::alpha || !p.known()) return "";
-  std::string text = fmt::format(
-      " Something stands out that noise alone seldom shows; still, that nothing is missing has the "
-      "probability {}",
-      decimal_text(p.consistent + p.noise_only, 2));
-  if (!p.named.empty()) {
-    std::vector<std::string> labels;
-    for (const NamedEffect& e : p.named.front().causes) labels.push_back(e.label);
-    text += fmt::format(", the likeliest effect ({}) {}", fmt::join(labels, " with "),
-                        decimal_text(p.named.front().probability, 2));
-  }
-  return text + ": watch for it in the next recording.";
-}
-
 /// That no effect of the library is behind it; where one could be, how probable either is.
 std::string unknown_text(const Diagnosis& d) {
   const Probabilities& p = d.probabilities;
@@ -164,6 +140,8 @@ std::string unknown_text(const Diagnosis& d) {
 std::string verdict_alone(const Diagnosis& d) {
   const std::string noise = noise_text(d),
                     false_alarm = fmt::format("chance of a false alarm: {}", p_text(d.p_value));
+  if (const std::string likelier = likelier_missing_text(d); !likelier.empty())
+    return likelier + (noise.empty() ? "" : " Or else:" + noise);
   if (const std::string priors = wrong_priors_text(d); !priors.empty())
     return priors + beside_priors_text(d, noise);
   switch (d.verdict) {
