@@ -171,6 +171,15 @@ LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter) {
   return out;
 }
 
+LeftOut left_out(const Study& study, std::size_t filter) {
+  LeftOut out = left_out(study.truth, study.filters[filter]);
+  const auto is_slewed = [](const Position& p) { return p.entry == Entry::torqued; };
+  if (study.truth.coupling == Coupling::servo && study.truth.servo.coulomb > 0.0 &&
+      std::ranges::any_of(study.plan.positions, is_slewed))
+    out.noise.emplace_back("servo.coulomb");
+  return out;
+}
+
 bool drawn_from_beliefs(const TruthSpec& truth, const FilterSpec& filter) {
   if (truth.coupling != filter.coupling || !left_out(truth, filter).nothing()) return false;
   for (std::size_t i = 0; i < TermLibrary::num_params; ++i)
