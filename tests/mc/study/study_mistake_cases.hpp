@@ -248,6 +248,7 @@ inline const Case cases[] = {
      {"'a' is used twice", "Rename"}},
     {17, "", "15:1", {"'filter.a.coupling' is missing", "no equation is the default"}},
     {17, "coupling = \"servo\"", "17:12", {"cannot be estimated with", "\"eq5\" or \"eq6\""}},
+    {17, "coupling = \"eq7\"", "17:12", {"\"lambda\", \"compensated\"). Did you mean 'eq6'?"}},
     {17,
      "coupling = \"eq5\"\nservo.lead = \"1 s\"",
      "18:1",
