@@ -288,6 +288,10 @@ inline const Case cases[] = {
      "21:26",
      {"unknown unit 'mim'", "Did you mean 'min'?"}},
     {20, "[sweep]\n\"schema\" = [1]", "21:13", {"cannot be swept", "Remove the line"}},
+    {20,
+     "[sweep]\n\"monte_carlo.seed\" = [1]",
+     "21:23",
+     {"all study points have it in common", "monte_carlo.design, monte_carlo.estimator)"}},
     {20, "[sweep]\n\"filter.b.coupling\" = [\"eq5\"]", "21:24", {"no element named 'b'"}},
 };
 
