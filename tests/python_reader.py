@@ -145,6 +145,25 @@ def exports_agree():
     one.close(), ds.close(), statistics.close(), filters.close()
 
 
+def sections_that_are_swept_are_coordinates():
+    """`truth = [{...}]`: the array of true values keeps its name."""
+    sweep = '[sweep]\ntruth = [{ coupling = "eq5" }, { angle_random_walk = "0.01 deg/sqrt(h)" }]\n'
+    Path("sections.toml").write_text(study[:study.index("[sweep]")] + sweep, encoding="utf-8")
+    run("run", "sections.toml", "--runs", "8", "-o", "sections")
+    run("export", "sections", "--format", "netcdf")
+    for group in (None, "statistics", "filters"):
+        ds = driftscope.open("sections", group)
+        assert ["coupling" in word for word in ds.truth_.values] == [True, False], ds.truth_.values
+        assert ds.truth_.dims == ("point",) and "truth_" in ds.coords
+        ds.close()
+    ds = driftscope.open("sections")
+    assert ds.truth.dims == ("point", "run", "parameter")
+    frame = driftscope.estimates("sections")
+    assert len(frame) == 2 * 8 * (2 * 15 + 9) and set(frame.truth_) == set(ds.truth_.values)
+    assert frame.truth.notnull().all()
+    ds.close()
+
+
 def points_of_different_lengths_are_padded():
     stop = '[monte_carlo.stop]\nquantity = "silent_failure_rate"\nhalf_width = 0.04\n[sweep]'
     Path("uneven.toml").write_text(study.replace("runs = 70", "runs = 300").replace("[sweep]", stop), encoding="utf-8")
@@ -290,7 +309,7 @@ def chapter_is_true():
     assert filters.silent_failure_rate.sel(start=1).to_pandas().to_string() in said.stdout, said.stdout
 
 
-for test in (exports_agree, points_of_different_lengths_are_padded, an_export_is_outdated_by_what_is_stored,
+for test in (exports_agree, sections_that_are_swept_are_coordinates, points_of_different_lengths_are_padded, an_export_is_outdated_by_what_is_stored,
              an_identification_agrees_with_itself, a_ranking_agrees_with_its_document, errors_say_what_to_do, notebooks_run, chapter_is_true):
     test()
     print(f"{test.__name__}: ok", flush=True)

@@ -95,6 +95,10 @@ void set_terminal(const Terminal& terminal) {
   the_terminal() = terminal;
 }
 
+void files_take_results() {
+  if (the_terminal().remarks == Terminal::Shown::no) the_terminal().results = Terminal::Shown::no;
+}
+
 void set_arguments(std::span<char* const> arguments) {
   for (const std::string_view argument : arguments)
     // One of nothing but a line end would take all lines apart.

@@ -36,6 +36,10 @@ void set_arguments(std::span<char* const> arguments);
 void set_terminal(const Terminal& terminal);
 const Terminal& terminal();
 
+/// Said by a command once it knows that files take what was asked for, where the command line alone
+/// does not tell (Result): a terminal without remarks shows no results either.
+void files_take_results();
+
 /// Columns of the terminal that results go to, at least `least`; that where they go elsewhere.
 std::size_t terminal_width(std::size_t least);
 

@@ -17,6 +17,7 @@ enum class OdeStatus {
   step_too_small,       ///< error test or corrector fail however short the step
   tolerance_too_tight,  ///< asked for more than double precision holds
   solver_failed,        ///< anything else; the cause has the solver's words
+  sample_nonfinite,     ///< it ended well, and what is read off its path is NaN or infinite
 };
 
 constexpr std::string_view name(OdeStatus status) {
@@ -41,6 +42,8 @@ constexpr std::string_view name(OdeStatus status) {
       return "tolerance_too_tight";
     case OdeStatus::solver_failed:
       return "solver_failed";
+    case OdeStatus::sample_nonfinite:
+      return "sample_nonfinite";
   }
   return "unknown";
 }

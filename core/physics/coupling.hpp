@@ -92,6 +92,20 @@ constexpr bool is_algebraic(Coupling coupling) {
   return facts(coupling).settles_to == coupling;
 }
 
+/// The equations that a filter can have, as files call them.
+inline constexpr Named<Coupling> couplings_of_filters[] = {
+    {key_of(Coupling::eq5), Coupling::eq5},
+    {key_of(Coupling::eq6), Coupling::eq6},
+    {key_of(Coupling::lambda), Coupling::lambda},
+    {key_of(Coupling::compensated), Coupling::compensated}};
+static_assert(
+    [] {
+      for (const CouplingFacts& c : couplings)
+        if (is_algebraic(c.value) == name_in(couplings_of_filters, c.value).empty()) return false;
+      return true;
+    }(),
+    "they are the algebraic ones");
+
 /// With lambda as a parameter: a member of the family by name becomes the same by number.
 constexpr Coupling family_of(Coupling coupling) {
   return facts(coupling).lambda ? Coupling::lambda : coupling;

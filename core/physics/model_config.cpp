@@ -22,13 +22,37 @@ constexpr Named<LoopEstimate> loop_estimates[] = {{"given", LoopEstimate::given}
 /// [deg/h/sqrt(h)] A gyro that walks by the 20 deg/s of a micromechanical one in an hour.
 constexpr double most_walk = 1e5;
 
-/// Coupling, terms, parameters and noise: what truth and filters have in common.
-void read_model(Section& section, ModelSpec& spec) {
-  section.require("coupling",
-                  fmt::format("coupling = {}: no equation is the default", names_of_couplings()));
+/// names: of the choices, for people.
+template <class Row, std::size_t N>
+void read_coupling(Section& section, Coupling& coupling, const Row (&choices)[N],
+                   const std::string& names) {
+  section.require("coupling", fmt::format("coupling = {}: no equation is the default", names));
   // Where the coupling is wrong, lambda allows whatever the terms and parameters ask for.
+  coupling = Coupling::lambda;
+  section.read(Option{.key = "coupling", .doc = "the drift equation"}, coupling, choices);
+}
+
+/// One that a truth alone can have is refused with the reason.
+void read_coupling_of_filter(Section& section, FilterSpec& spec) {
+  const std::string names = names_of_couplings(is_algebraic);
+  const config::Node* given = section.take("coupling");
+  const bool word = given != nullptr && given->is(config::Node::Kind::string);
+  const auto of_truths = word ? value_in(couplings, given->text) : std::nullopt;
+  if (!of_truths || is_algebraic(*of_truths)) {
+    read_coupling(section, spec.coupling, couplings_of_filters, names);
+    return;
+  }
   spec.coupling = Coupling::lambda;
-  section.read(Option{.key = "coupling", .doc = "the drift equation"}, spec.coupling, couplings);
+  section.report().error(
+      given->at,
+      fmt::format("'{}' = \"{}\" cannot be estimated with: the loop settles within a sample and "
+                  "its states are not observable (expected {}). Choose the equation the loop "
+                  "settles to, \"eq5\" or \"eq6\"",
+                  section.full("coupling"), given->text, names));
+}
+
+/// Terms, parameters and noise: what truth and filters have in common. Their coupling is read.
+void read_model(Section& section, ModelSpec& spec) {
   spec.active = read_terms(section, spec.coupling);
   read_parameters(section, spec);
   section.read(Option{"initial_attitude", unit::arcsec, 0.0, 36000.0, "1 sigma per axis at caging"},
@@ -135,15 +159,8 @@ FilterSpec read_filter(Section section, std::size_t number, const Mounting& moun
   spec.mounting = mounting;
   spec.name = fmt::format("filter {}", number);
   section.read(Option{.key = "name", .doc = "of the filter"}, spec.name);
+  read_coupling_of_filter(section, spec);
   read_model(section, spec);
-  if (!is_algebraic(spec.coupling))
-    section.report().error(
-        section.take("coupling")->at,
-        fmt::format("'{}' = \"{}\" cannot be estimated with: the loop settles within a sample and "
-                    "its states are not observable (expected {}). Choose the equation the loop "
-                    "settles to, \"eq5\" or \"eq6\"",
-                    section.full("coupling"), key_of(spec.coupling),
-                    names_of_couplings(is_algebraic)));
   read_starts(section, spec);
   section.finish();
   return spec;
@@ -156,6 +173,7 @@ TruthSpec read_truth(Section section, const Mounting& mounting, UnusedTables unu
   spec.mounting = mounting;
   if (!section.present()) return spec;
   const std::size_t errors = section.report().errors();
+  read_coupling(section, spec.coupling, couplings, names_of_couplings());
   read_model(section, spec);
   const bool right = section.report().errors() == errors && unused == UnusedTables::refused;
   Section servo = section.section("servo");

@@ -1,6 +1,7 @@
 #include "core/sim/measurements.hpp"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -15,6 +16,22 @@ constexpr std::array<const char*, 3> gimbal_names{"gimbal_outer", "gimbal_middle
 constexpr std::array<const char*, 3> cmd_names{"cmd_x", "cmd_y", "cmd_z"};
 
 }  // namespace
+
+std::optional<NonfiniteSample> nonfinite_sample(const Measurements& measured,
+                                                const Readout& readout, std::size_t first,
+                                                std::size_t end) {
+  for (std::size_t k = first; k < end; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto axis = static_cast<Eigen::Index>(a);
+      if (readout.accelerometers && !std::isfinite(measured.acc(axis, i)))
+        return NonfiniteSample{k, acc_names[a], true};
+      if (readout.gimbals && !std::isfinite(measured.gimbal(axis, i)))
+        return NonfiniteSample{k, gimbal_names[a], false};
+    }
+  }
+  return std::nullopt;
+}
 
 Measurements measurements_of(const Recording& recording, const Readout& readout) {
   const auto rows = static_cast<Eigen::Index>(recording.rows());

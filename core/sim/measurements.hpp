@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 #include "core/plan/readout.hpp"
 #include "core/plan/timeline.hpp"
@@ -23,6 +25,17 @@ inline bool is_along(const Measurements& measured, const Timeline& timeline) {
   const auto intervals = static_cast<Eigen::Index>(timeline.intervals.size());
   return measured.acc.cols() == intervals && measured.gimbal.cols() == intervals;
 }
+
+/// A sample that is to be measured and is no finite number.
+struct NonfiniteSample {
+  std::size_t interval = 0;
+  std::string_view channel;  ///< "acc_z"
+  bool of_accelerometer = false;
+};
+/// The first of what a readout declares, in intervals first .. end - 1.
+std::optional<NonfiniteSample> nonfinite_sample(const Measurements& measured,
+                                                const Readout& readout, std::size_t first,
+                                                std::size_t end);
 
 /// The channels acc_* and gimbal_* of a recording; absent or unread channels are all NaN.
 Measurements measurements_of(const Recording& recording, const Readout& readout);

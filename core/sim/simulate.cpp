@@ -1,5 +1,7 @@
 #include "core/sim/simulate.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -109,6 +111,24 @@ void Simulator::extend(const Timeline& timeline, std::size_t first, std::size_t 
   integrate(timeline, first, end, out);
   if (!out.ode.ok()) return;
   for (std::size_t i = first; i < end; ++i) measure(timeline, i, out);
+  judge_samples(timeline, first, end, out);
+}
+
+/// To estimators a sample that is no number is one that was not taken: a test with fewer of them,
+/// and nobody would know.
+void Simulator::judge_samples(const Timeline& timeline, std::size_t first, std::size_t end,
+                              Simulation& out) {
+  const auto bad = nonfinite_sample(out.measured, readout_, first, end);
+  if (!bad) return;
+  TermMask reading;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t)
+    reading[t] =
+        bad->of_accelerometer ? TermLibrary::terms[t].in_readout : TermLibrary::terms[t].in_gimbals;
+  const double t = timeline.intervals[bad->interval].t1;
+  out.ode = {OdeStatus::sample_nonfinite, t,
+             fmt::format("{} is no finite number at t = {:.9g} s", bad->channel, t)};
+  if (const std::string own = own_terms_drawn(model_.terms & reading, out.draw.theta); !own.empty())
+    out.ode.cause += ", with " + own;
 }
 
 /// All parameters as they are in interval i: the drift's random walk goes on, its level may flip.

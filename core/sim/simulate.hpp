@@ -17,7 +17,8 @@ namespace drift {
 
 /// One simulated test.
 struct Simulation {
-  OdeResult ode;  ///< not ok: the run failed, the rest is not to be used
+  OdeResult ode;  ///< not ok: the run failed, the rest is not to be used; a sample that is to be
+                  ///< measured and is no finite number fails it, too
   OdeStats cost;
   TruthDraw draw;
   Theta theta_end = Theta::Zero();  ///< as draw.theta, but D_F where its random walk and its jumps
@@ -71,6 +72,7 @@ class Simulator {
   void integrate(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
   Theta drift_of(const Timeline& timeline, std::size_t i, const Theta& drawn);
   void measure(const Timeline& timeline, std::size_t i, Simulation& out);
+  void judge_samples(const Timeline& timeline, std::size_t first, std::size_t end, Simulation& out);
   const Vec3* turned_between(const Timeline& timeline, std::size_t i, const Vec3* phi);
   std::size_t segment_end(const Timeline& timeline, std::size_t first, std::size_t end,
                           bool noisy) const;

@@ -1,8 +1,11 @@
 #include "mc/export/export_netcdf.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "core/base/atomic_file.hpp"
+#include "core/base/check.hpp"
 #include "core/base/nan.hpp"
 #include "core/base/seal.hpp"
 #include "mc/export/export_table.hpp"
@@ -12,6 +15,21 @@
 namespace drift::mc {
 namespace {
 
+/// What the file holds besides the dimensions and what was swept: groups of tables in their order,
+/// and arrays, those of a run beside the stored_fields.
+namespace in_file {
+constexpr const char* tables[] = {"statistics", "filters"};
+constexpr const char *estimate = "estimate", *sigma = "sigma", *truth = "truth", *status = "status",
+                     *prior_mean = "prior_mean", *prior_sigma = "prior_sigma";
+
+std::set<std::string> names() {
+  std::set<std::string> all{estimate, sigma, truth, status, prior_mean, prior_sigma};
+  all.insert(std::begin(tables), std::end(tables));
+  for (const StoredField& field : stored_fields) all.insert(field.in_netcdf);
+  return all;
+}
+}  // namespace in_file
+
 /// The arrays over runs, filled run after run; runs that are missing are NaN.
 class RunArrays {
  public:
@@ -20,22 +38,23 @@ class RunArrays {
     const auto of_parameter = axes.with_point({"run", "filter", "start", "parameter"}),
                of_fit = axes.with_point({"run", "filter", "start"});
     const std::size_t parameters = axes.params.size();
-    add(group.make("estimate", of_parameter,
+    add(group.make(in_file::estimate, of_parameter,
                    {unit_of_parameter, "estimate at the end of the test"}),
         fits_ * parameters);
-    add(group.make("sigma", of_parameter, {unit_of_parameter, "its reported standard deviation"}),
+    add(group.make(in_file::sigma, of_parameter,
+                   {unit_of_parameter, "its reported standard deviation"}),
         fits_ * parameters);
-    add(group.make("truth", axes.with_point({"run", "parameter"}),
+    add(group.make(in_file::truth, axes.with_point({"run", "parameter"}),
                    {unit_of_parameter, "true value at the end of the test"}),
         parameters);
     for (const StoredField& field : stored_fields)
       add(group.make(field.in_netcdf, of_fit, {"1", field.about}), fits_);
-    add(group.make("status", axes.with_point({"run"}),
+    add(group.make(in_file::status, axes.with_point({"run"}),
                    {"1", "how the run ended; -1 where it was not made"}, Hdf5Output::Type::i8),
         1);
     std::vector<std::string> statuses;
     for (int i = 0; i < num_statuses; ++i) statuses.emplace_back(name(static_cast<RunStatus>(i)));
-    file_.set_flags(group.path_of("status"), statuses);
+    file_.set_flags(group.path_of(in_file::status), statuses);
   }
 
   void add(const Block& b) {
@@ -132,10 +151,10 @@ void write_priors(NamedGroup& group, const NamedAxes& axes) {
         sigma[at] = f.layout.sigma[k] / TermLibrary::specs[param].unit.to_si;
       }
   const auto dimensions = axes.with_point({"filter", "parameter"});
-  group.put("prior_mean", dimensions, {unit_of_parameter, "mean that the filter begins with"},
-            mean);
-  group.put("prior_sigma", dimensions, {unit_of_parameter, "1 sigma that the filter begins with"},
-            sigma);
+  group.put(in_file::prior_mean, dimensions,
+            {unit_of_parameter, "mean that the filter begins with"}, mean);
+  group.put(in_file::prior_sigma, dimensions,
+            {unit_of_parameter, "1 sigma that the filter begins with"}, sigma);
 }
 
 /// A table whose rows are keyed by point, filter and a third column, as arrays over them.
@@ -164,9 +183,15 @@ void write_statistics(Hdf5Output& file, const NamedAxes& axes, const ExportTable
   }
 }
 
+const ExportTable& table_named(const std::vector<ExportTable>& tables, std::string_view name) {
+  const auto at = std::ranges::find(tables, name, &ExportTable::name);
+  DRIFT_DEMAND(at != tables.end());
+  return *at;
+}
+
 void write_named(StudyReader& reader, const StopRules& rules, const std::string& path,
                  const std::vector<StudyPoint>& points) {
-  const NamedAxes axes(points);
+  const NamedAxes axes(points, in_file::names());
   std::uint64_t runs = 0;
   reader.each_result(rules, [&](const StoredBlock& b) {
     runs = std::max(runs, b.block.first + b.block.status.size());
@@ -185,8 +210,8 @@ void write_named(StudyReader& reader, const StopRules& rules, const std::string&
   });
   arrays.finish();
   const std::vector<ExportTable> tables = statistics.finish();
-  write_statistics(file, axes, tables.at(0), Third::parameter);
-  write_statistics(file, axes, tables.at(1), Third::start);
+  write_statistics(file, axes, table_named(tables, in_file::tables[0]), Third::parameter);
+  write_statistics(file, axes, table_named(tables, in_file::tables[1]), Third::start);
   file.complete();
 }
 

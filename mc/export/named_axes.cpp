@@ -9,24 +9,37 @@
 namespace drift::mc {
 namespace {
 
-void put_swept(NamedGroup& group, const std::vector<SweptCoordinate>& swept) {
+constexpr const char* parameter_unit = "parameter_unit";
+
+/// A plain name of each swept key, none of them `taken`: `truth = [{ ... }, ...]` is no array of
+/// true values.
+std::vector<std::string> names_of(const std::vector<SweptCoordinate>& swept,
+                                  std::set<std::string> taken) {
+  taken.insert({"point", "run", "filter", "start", "parameter", parameter_unit});
   std::vector<std::string> names;
-  std::set<std::string> taken{"point", "run", "filter", "start", "parameter"};
   for (const SweptCoordinate& c : swept) {
     std::string name = plain_name(c.key);
     while (!taken.insert(name).second) name += "_";
-    if (c.numbers.empty())
-      group.put_words(name, "point", c.words, c.key);
-    else
-      group.put(name, {"point"}, {std::string(c.unit.symbol.view()), c.key}, c.numbers);
     names.push_back(name);
   }
-  for (const std::string& name : names) group.mark_coordinate(name, "point");
+  return names;
+}
+
+void put_swept(NamedGroup& group, const NamedAxes& axes) {
+  for (std::size_t k = 0; k < axes.swept.size(); ++k) {
+    const SweptCoordinate& c = axes.swept[k];
+    if (c.numbers.empty())
+      group.put_words(axes.coordinates[k], "point", c.words, c.key);
+    else
+      group.put(axes.coordinates[k], {"point"}, {std::string(c.unit.symbol.view()), c.key},
+                c.numbers);
+  }
+  for (const std::string& name : axes.coordinates) group.mark_coordinate(name, "point");
 }
 
 }  // namespace
 
-NamedAxes::NamedAxes(const std::vector<StudyPoint>& study_points) {
+NamedAxes::NamedAxes(const std::vector<StudyPoint>& study_points, std::set<std::string> others) {
   std::set<std::size_t> named;
   for (const StudyPoint& p : study_points) {
     points.push_back(p.label);
@@ -39,6 +52,7 @@ NamedAxes::NamedAxes(const std::vector<StudyPoint>& study_points) {
   }
   params.assign(named.begin(), named.end());
   swept = swept_coordinates(study_points);
+  coordinates = names_of(swept, std::move(others));
 }
 
 std::size_t NamedAxes::filter(const std::string& name) const {
@@ -57,7 +71,7 @@ std::vector<std::string> NamedAxes::with_point(std::vector<std::string> dimensio
 void NamedAxes::make_dimensions(NamedGroup& group) const {
   if (points.size() > 1) {
     group.name_along("point", points, "study point: the values that were swept");
-    put_swept(group, swept);
+    put_swept(group, *this);
   }
   group.name_along("filter", filters, "filter of the study");
   group.number_along("start", starts, 1, "initial estimate, from 1");
@@ -71,8 +85,8 @@ void put_parameter_dimension(NamedGroup& group, const std::vector<std::size_t>& 
     units.emplace_back(TermLibrary::specs[p].unit.symbol.view());
   }
   group.name_along("parameter", keys, "parameter, as `driftscope terms` lists it");
-  group.put_words("parameter_unit", "parameter", units, "unit of the parameter");
-  group.mark_coordinate("parameter_unit", "parameter");
+  group.put_words(parameter_unit, "parameter", units, "unit of the parameter");
+  group.mark_coordinate(parameter_unit, "parameter");
 }
 
 }  // namespace drift::mc

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,12 @@ struct NamedAxes {
   std::vector<std::size_t> params;   ///< library indices, in the order of the library
   std::size_t starts = 0;            ///< of the filter that has most
   std::vector<SweptCoordinate> swept;
-  std::vector<StudyColumns> columns;  ///< of each point
+  std::vector<std::string> coordinates;  ///< what each of these is called in a file
+  std::vector<StudyColumns> columns;     ///< of each point
 
-  explicit NamedAxes(const std::vector<StudyPoint>& study_points);
+  /// others: names of what else the file holds, which no coordinate may have.
+  explicit NamedAxes(const std::vector<StudyPoint>& study_points,
+                     std::set<std::string> others = {});
   /// `dimensions`, behind `point` where the study has several.
   std::vector<std::string> with_point(std::vector<std::string> dimensions) const;
   /// Makes point, filter, start and parameter the dimensions of a group, with what belongs to them.

@@ -83,11 +83,13 @@ void check_stop(Report& report, const Node& root, const Study& study) {
                                "Choose one of them, or add its term to a filter")));
 }
 
+constexpr std::string_view swept_of_monte_carlo[] = {"monte_carlo.design", "monte_carlo.estimator"};
+
 /// The number of runs, the seed and the like are the study's: points share their runs. So are its
 /// own terms, of which the library holds one set; their settings are parameters of [truth] too.
 bool can_be_swept(std::string_view key) {
-  constexpr std::string_view designs[] = {"monte_carlo.design", "monte_carlo.estimator"};
-  if (key.starts_with("monte_carlo")) return std::ranges::find(designs, key) != std::end(designs);
+  if (key.starts_with("monte_carlo"))
+    return std::ranges::find(swept_of_monte_carlo, key) != std::end(swept_of_monte_carlo);
   return !key.starts_with("sweep") && !key.starts_with("schema") && !key.starts_with("term");
 }
 
@@ -119,10 +121,11 @@ void try_sweep(const Node& root, const Study& study) {
                                     : fmt::format("--set {}", at.set_key);
       try {
         if (!can_be_swept(axis.key))
-          throw InputError(ExitCode::config,
-                           fmt::format("'{}' cannot be swept (expected a key of the "
-                                       "study). Remove the line",
-                                       axis.key));
+          throw InputError(
+              ExitCode::config,
+              fmt::format("'{}' cannot be swept: all study points have it in common (expected a "
+                          "key of what is simulated or estimated, {}). Remove the line",
+                          axis.key, fmt::join(swept_of_monte_carlo, ", ")));
         Node point = root;
         apply_sweep_value(point, axis.key, axis.values[i]);
         read_study_tree(point, study.path);

@@ -102,6 +102,16 @@ bool same_equation(const TruthSpec& truth, const FilterSpec& filter) {
   return own && same(*lambda, *own);
 }
 
+/// A filter that estimates lambda has the truth's equation, unless its prior is as good as a number
+/// that the truth's is not.
+void compare_lambda(const TruthSpec& truth, const FilterSpec& filter, LeftOut& out) {
+  const Prior& own = filter.priors[closure_param];
+  if (filter.coupling != Coupling::lambda || own.sigma() == 0.0) return;
+  const std::optional<Prior> lambda = lambda_of(truth);
+  if (lambda && is_misaligned(truth) && is_misaligned(filter) && excludes(own, *lambda))
+    out.excluded.set(closure_param);
+}
+
 /// Notes the key of a noise, once, where the filter has none of it or less than the truth.
 void compare_key(std::string_view key, double truth, double filter, LeftOut& out) {
   std::vector<std::string_view>& keys = filter > 0.0 ? out.smaller_keys : out.noise;
@@ -160,6 +170,7 @@ LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter) {
         out.held.set(i);
     }
   }
+  compare_lambda(truth, filter, out);
   compare_walks(truth, filter, layout.theta, out);
   compare_key("angle_random_walk", truth.noise.angle_random_walk, filter.noise.angle_random_walk,
               out);
@@ -168,6 +179,15 @@ LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter) {
   const ServoOptions& servo = truth.servo;
   if (truth.coupling == Coupling::servo && servo.base_amplitude > 0.0 && servo.base_frequency > 0.0)
     out.noise.emplace_back("servo.base_amplitude");
+  return out;
+}
+
+LeftOut left_out(const Study& study, std::size_t filter) {
+  LeftOut out = left_out(study.truth, study.filters[filter]);
+  const auto is_slewed = [](const Position& p) { return p.entry == Entry::torqued; };
+  if (study.truth.coupling == Coupling::servo && study.truth.servo.coulomb > 0.0 &&
+      std::ranges::any_of(study.plan.positions, is_slewed))
+    out.noise.emplace_back("servo.coulomb");
   return out;
 }
 

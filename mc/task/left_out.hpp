@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/physics/model_spec.hpp"
+#include "mc/study/study.hpp"
 
 namespace drift::mc {
 
@@ -31,10 +31,16 @@ inline constexpr double far_off_prior = 5.0;
 
 /// Compares a filter with the truth. Of the truth counts what acts: an effect of size zero does
 /// not, a drawn one does. A loop that compensates nothing is eq. (5), an integrating servo closes
-/// like eq. (6), a filter that estimates lambda has every member of the family, and all of
-/// them are one unless truth and filter both have misalignments. What the filter has beyond the
-/// truth harms nothing: of a noise that is larger than the truth's, its sigmas are only too large.
+/// like eq. (6), a filter that estimates lambda has every member of the family that its prior does
+/// not exclude, and all of them are one unless truth and filter both have misalignments. What the
+/// filter has beyond the truth harms nothing: of a noise that is larger than the truth's, its
+/// sigmas are only too large.
 LeftOut left_out(const TruthSpec& truth, const FilterSpec& filter);
+
+/// The same of filter number `filter` of a study, whose plan has its part in it: Coulomb friction
+/// of a servo hangs the platform off, to another side after every slew. At a caging that is part of
+/// the attitude that is estimated; of what is carried along to another position it is no parameter.
+LeftOut left_out(const Study& study, std::size_t filter);
 
 /// Whether truths are drawn from what the filter believes and starts from: it leaves nothing out,
 /// and coupling, priors and noise are the same, too. The mean of the error squared over the

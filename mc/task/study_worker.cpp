@@ -22,6 +22,7 @@ double cpu_seconds() {
 }
 
 RunStatus status_of(const OdeResult& ode) {
+  if (ode.status == OdeStatus::sample_nonfinite) return RunStatus::nonfinite;
   return ode.status == OdeStatus::wall_time ? RunStatus::timeout : RunStatus::integrator_failed;
 }
 
@@ -182,13 +183,7 @@ void StudyWorker::simulate(Member& member) {
   const auto& truth = task_.layout().truth;
   for (std::size_t c = 0; c < truth.size(); ++c)
     member.work->row[c] = sim.theta_end[static_cast<Eigen::Index>(truth[c])];
-  if (!sim.ode.ok()) {
-    blame(member.work->outcome, status_of(sim.ode), sim.ode.cause, sim.ode.t);
-    return;
-  }
-  const auto infinite = [](const Mat3X& m) { return m.array().isInf().any(); };
-  if (infinite(sim.measured.acc) || infinite(sim.measured.gimbal))
-    blame(member.work->outcome, RunStatus::nonfinite, "a simulated measurement is infinite", 0.0);
+  if (!sim.ode.ok()) blame(member.work->outcome, status_of(sim.ode), sim.ode.cause, sim.ode.t);
 }
 
 Theta StudyWorker::start_of(const Bench& bench, std::uint64_t run, std::size_t start) const {

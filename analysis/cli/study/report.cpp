@@ -24,6 +24,7 @@ ExitCode report(const std::string& folder, const StudyProgram& program) {
                     "blind wrote). Give the folder named with -o",
                     folder));
   if (command == "run") {  // made anew, of as many runs as there are
+    files_take_results();
     require_results_folder({folder, "run"});
     mc::StudyReader reader(folder);
     const auto [study, work] = frozen_study(folder, reader, program);

@@ -139,11 +139,16 @@ Command export_command() {
         ->check(one_of({"hdf5", "netcdf", "csv", "json"}));
     add_output(app, a.output, "file to write; FOLDER/export.h5, .nc, .csv or .json by default");
   };
-  return {"export", group::studies, "convert the results",
+  return {"export",
+          group::studies,
+          "convert the results",
           "driftscope export results/study --format hdf5",
-          with_arguments<Arguments>(add, [](const Arguments& a) {
-            return export_results(a.folder, a.format, a.output, study_program());
-          })};
+          with_arguments<Arguments>(add,
+                                    [](const Arguments& a) {
+                                      return export_results(a.folder, a.format, a.output,
+                                                            study_program());
+                                    }),
+          Result::in_files};
 }
 
 }  // namespace drift::cli

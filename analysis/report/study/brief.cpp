@@ -111,6 +111,35 @@ std::string filter_in_words(const StudyResults& results, const Pair& pair) {
                      key_of(results.points[pair.point].study.truth.coupling));
 }
 
+/// Whether samples that are wrong may be taken in: right after a caging, by what goes sample by
+/// sample.
+bool takes_outliers_in(const mc::Study& study) {
+  return has_outliers(study.truth.model().terms) &&
+         study.monte_carlo.estimator != mc::EstimatorKind::batch;
+}
+
+/// What makes sigmas too small where truths, noise and filter are alike, and what to do.
+std::string estimator_text(const mc::Study& study) {
+  if (takes_outliers_in(study))
+    return "it meets the samples one by one, and right after a caging cannot tell an outlier from "
+           "what it does not know yet. Set monte_carlo.estimator = \"batch\", which weighs all";
+  return fmt::format(
+      "it is linear about one estimate, and over what stays unknown the model is not (products of "
+      "parameters, narrow effects). {}",
+      study.monte_carlo.estimator == mc::EstimatorKind::ekf
+          ? "Set monte_carlo.estimator = \"iterated\", which linearises anew"
+          : "Go by the errors of this study, not by the sigmas");
+}
+
+/// Of a filter that is right but for its estimator, that.
+std::string blamed_text(const StudyResults& results, const Pair& pair) {
+  const mc::Study& study = results.points[pair.point].study;
+  const bool blamed =
+      matched(results, pair) &&
+      (takes_outliers_in(study) || mc::drawn_from_beliefs(study.truth, study.filters[pair.filter]));
+  return blamed ? fmt::format(" So it is the estimator: {}.", estimator_text(study)) : "";
+}
+
 /// What a filter whose sigmas are not to be trusted lacks, and whether its residuals show it.
 std::string shown_text(const StudyResults& results, const Pair& pair) {
   const mc::LeftOut lacks = left_out(results, pair);
@@ -119,10 +148,10 @@ std::string shown_text(const StudyResults& results, const Pair& pair) {
                                             : fmt::format("It {} {}", lacks.equation ? "has" : "is",
                                                           model_in_words(lacks));
   const auto estimated = static_cast<double>(start.healthy.of - start.diverged.hits);
-  if (!(estimated > 0.0)) return model + ".";
+  if (!(estimated > 0.0)) return model + "." + blamed_text(results, pair);
   const double alarms = 1.0 - static_cast<double>(start.healthy.hits) / estimated;
-  return fmt::format("{}; its residuals alarm in {} % of the runs (by chance 5).", model,
-                     percent_cell(alarms).text);
+  return fmt::format("{}; its residuals alarm in {} % of the runs (by chance 5).{}", model,
+                     percent_cell(alarms).text, blamed_text(results, pair));
 }
 
 /// Whatever the innovations say: the sigmas of such a filter are not those of its errors.
@@ -146,20 +175,6 @@ std::string diverged_text(const StudyResults& results, const Tally& t) {
                      t.pairs_diverged > 1 ? "Up to " : "",
                      rate_cell(first_start(results, *t.diverged).diverged).text,
                      pair_in_words(results, *t.diverged));
-}
-
-/// What makes sigmas too small where truths, noise and filter are alike, and what to do.
-std::string estimator_text(const mc::Study& study) {
-  const mc::EstimatorKind estimator = study.monte_carlo.estimator;
-  if (has_outliers(study.truth.model().terms) && estimator != mc::EstimatorKind::batch)
-    return "it meets the samples one by one, and right after a caging cannot tell an outlier from "
-           "what it does not know yet. Set monte_carlo.estimator = \"batch\", which weighs all";
-  return fmt::format(
-      "it is linear about one estimate, and over what stays unknown the model is not (products of "
-      "parameters, narrow effects). {}",
-      estimator == mc::EstimatorKind::ekf
-          ? "Set monte_carlo.estimator = \"iterated\", which linearises anew"
-          : "Go by the errors of this study, not by the sigmas");
 }
 
 std::string not_linear_text(const StudyResults& results, const Pair& pair) {

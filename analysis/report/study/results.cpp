@@ -47,8 +47,7 @@ const mc::FilterStatistics& statistics_of(const StudyResults& results, const Pai
 }
 
 mc::LeftOut left_out(const StudyResults& results, const Pair& pair) {
-  const mc::Study& study = results.points[pair.point].study;
-  return mc::left_out(study.truth, study.filters[pair.filter]);
+  return mc::left_out(results.points[pair.point].study, pair.filter);
 }
 
 bool matched(const StudyResults& results, const Pair& pair) {

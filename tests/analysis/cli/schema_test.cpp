@@ -144,6 +144,7 @@ TEST(Schema, RefusesWhatTheProgramRefuses) {
        {"[readuot]", "[environment]\ntemprature = \"20 degC\"", "[environment]\ntemperature = 20",
         "[environment]\ntemperature = \"20\"", "[monte_carlo.stop]\nquantity = 3",
         "[mounting]\ngyro_x = [1]", "[[filter]]\nname = \"more\"\ncoupling = \"eq7\"",
+        "[[filter]]\nname = \"more\"\ncoupling = \"servo\"",
         "[[filter]]\nname = \"more\"\ncoupling = \"eq5\"\nterms = [\"no_such_term\"]",
         "[[filter]]\nname = \"more\"\ncoupling = \"eq5\"\nstarts = 0",
         "[[filter]]\nname = \"more\"\ncoupling = \"eq5\"\nparameters = { eta_q = \"1 arcsec\" }",

@@ -29,5 +29,23 @@ TEST(SweptTextExport, AQuantityBelowZeroIsItselfInEveryFormat) {
       << "the attribute `words` of /points";
 }
 
+/// The coordinate of what is swept would be called as the array of true values is.
+TEST(SweptTextExport, WholeSectionsAreSweptInEveryFormat) {
+  const ScratchFolder scratch;
+  const std::string out = scratch.file("out");
+  const std::string sections =
+      small_study +
+      "[sweep]\ntruth = [{ coupling = \"eq6\" }, { initial_attitude = \"9 arcsec\" }]\n"
+      "readout = [{ gimbals = false }, { accelerometers = false }]\n";
+  const Answer run =
+      driftscope("run " + scratch.write("s.toml", sections) + " --runs 2 --threads 1 -o " + out);
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* format : {"csv", "hdf5", "json", "netcdf"}) {
+    const Answer made = driftscope("export " + out + " --format " + format);
+    EXPECT_EQ(made.code, 0) << format << ": " << made.err;
+  }
+  EXPECT_NE(text_of(out + "/export.nc").find("truth_"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace drift::swept_text_export_test

@@ -34,6 +34,25 @@ TEST(Quiet, WhatWasAskedForIsPrintedWhereNoFileTakesIt) {
   EXPECT_EQ(driftscope("--quiet check " + study).out, loud.out);
 }
 
+TEST(Quiet, ExportsAndReportsOfStudiesAreFiles) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out"), study = folder.write("s.toml", cheap_study());
+  for (const std::string& line : std::vector<std::string>{
+           "run " + study + " --runs 8 --threads 1 -o " + out, "export " + out + " --format json",
+           "export " + out + " --format hdf5 -o " + folder.file("x.h5"), "report " + out,
+           "report " + out + " --full"}) {
+    const Answer a = driftscope(line + " --quiet");
+    EXPECT_EQ(a.code, 0) << line << ": " << a.err;
+    EXPECT_EQ(a.out + a.err, "") << line;
+  }
+  EXPECT_FALSE(driftscope("report " + out).out.empty());
+  EXPECT_FALSE(driftscope("status " + out + " --quiet").out.empty()) << "no file takes it";
+  // Of other folders the answer is where the report is.
+  const std::string other = folder.file("other");
+  ASSERT_EQ(driftscope("identify " + study + " --quiet -o " + other).code, 0);
+  EXPECT_EQ(driftscope("report " + other + " --quiet").out, other + "/report.html\n");
+}
+
 TEST(Quiet, ErrorsAreToldAllTheSame) {
   const ScratchFolder folder;
   const Answer a = driftscope("check --quiet " + folder.write("s.toml", "schema = 1\n[plna]\n"));

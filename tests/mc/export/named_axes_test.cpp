@@ -49,6 +49,21 @@ TEST(NamedAxes, WhatIsSweptTogetherIsNamedApart) {
   EXPECT_EQ(axes.swept[1].numbers, (std::vector<double>{2.0, 3.0}));
 }
 
+TEST(NamedAxes, NoCoordinateHasTheNameOfAnythingElse) {
+  // Tables of other keys are one coordinate, called as the section is.
+  const std::string sweep =
+      "[sweep]\ntruth = [{ coupling = \"eq6\" }, { initial_attitude = \"9 arcsec\" }]\n"
+      "\"plan.dwell\" = [\"10 min\", \"20 min\"]\n";
+  const auto points = mc::study_points(read_text(small_study + sweep));
+  const auto named = [&](std::set<std::string> others) {
+    return mc::NamedAxes(points, std::move(others)).coordinates;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(named({}), (Names{"truth", "plan_dwell"}));
+  EXPECT_EQ(named({"truth", "estimate"}), (Names{"truth_", "plan_dwell"}));
+  EXPECT_EQ(named({"truth", "truth_", "plan_dwell"}), (Names{"truth__", "plan_dwell_"}));
+}
+
 TEST(NamedAxes, ADistributionIsNoNumber) {
   const mc::NamedAxes axes = axes_of(
       "[sweep]\n\"truth.parameters.eta_x\" = [\"20 arcsec\", { normal = [\"1 arcsec\", \"2 "

@@ -248,6 +248,7 @@ inline const Case cases[] = {
      {"'a' is used twice", "Rename"}},
     {17, "", "15:1", {"'filter.a.coupling' is missing", "no equation is the default"}},
     {17, "coupling = \"servo\"", "17:12", {"cannot be estimated with", "\"eq5\" or \"eq6\""}},
+    {17, "coupling = \"eq7\"", "17:12", {"\"lambda\", \"compensated\"). Did you mean 'eq6'?"}},
     {17,
      "coupling = \"eq5\"\nservo.lead = \"1 s\"",
      "18:1",
@@ -287,6 +288,10 @@ inline const Case cases[] = {
      "21:26",
      {"unknown unit 'mim'", "Did you mean 'min'?"}},
     {20, "[sweep]\n\"schema\" = [1]", "21:13", {"cannot be swept", "Remove the line"}},
+    {20,
+     "[sweep]\n\"monte_carlo.seed\" = [1]",
+     "21:23",
+     {"all study points have it in common", "monte_carlo.design, monte_carlo.estimator)"}},
     {20, "[sweep]\n\"filter.b.coupling\" = [\"eq5\"]", "21:24", {"no element named 'b'"}},
 };
 

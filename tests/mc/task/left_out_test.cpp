@@ -251,6 +251,33 @@ TEST(LeftOut, IsAnotherEquation) {
   EXPECT_TRUE(mc::left_out(truth(eq6), half).equation);
 }
 
+TEST(LeftOut, IsAnEquationThatThePriorOfLambdaExcludes) {
+  using enum Coupling;
+  FilterSpec filter = filter_with({"gyro_misalignment"}, Coupling::lambda);
+  const auto excluded = [&](Coupling truth, const Prior& own) {
+    filter.priors[closure_param] = own;
+    const mc::LeftOut out = mc::left_out(truth_with({"gyro_misalignment"}, truth), filter);
+    EXPECT_FALSE(out.equation) << "it is estimated";
+    EXPECT_EQ(out.nothing(), out.excluded.none());
+    return out.excluded == ParamMask().set(closure_param);
+  };
+  // 5 sigmas of a prior about 0.3 reach 1 where a sigma is 0.14, and 0 where it is 0.06.
+  for (const Coupling truth : {eq6, servo}) {
+    EXPECT_TRUE(excluded(truth, normal(0.3, 0.01)));
+    EXPECT_TRUE(excluded(truth, normal(0.3, 0.139)));
+    EXPECT_FALSE(excluded(truth, normal(0.3, 0.141)));
+    EXPECT_TRUE(excluded(truth, uniform(0.0, 0.1)));  // 0.95 from its mean, 33 of its sigmas
+    EXPECT_FALSE(excluded(truth, uniform(0.0, 1.0)));
+  }
+  for (const Coupling truth : {eq5, compensated}) {
+    EXPECT_TRUE(excluded(truth, normal(0.3, 0.059)));
+    EXPECT_FALSE(excluded(truth, normal(0.3, 0.061)));
+  }
+  // Without misalignments any lambda does.
+  filter.priors[closure_param] = normal(0.3, 0.01);
+  EXPECT_TRUE(mc::left_out(truth_with({"fixed_drift"}, eq6), filter).nothing());
+}
+
 TEST(LeftOut, TruthsAreDrawnFromWhatAFilterBelievesWherePriorsAndNoiseAreItsOwn) {
   const auto drawn = [](const TruthSpec& truth, const FilterSpec& filter) {
     return mc::drawn_from_beliefs(truth, filter);

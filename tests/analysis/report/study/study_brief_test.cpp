@@ -93,6 +93,39 @@ TEST(StudyBrief, SigmasNotToBeTrustedAreThoseOfAFilterAndWhetherItsResidualsShow
       << said(silent, "filter right (");
 }
 
+TEST(StudyBrief, WhereTheModelIsTheTruthsTheEstimatorIsBlamed) {
+  const auto with = [](const std::string& estimator, const std::string& terms) {
+    std::string text = test::small_study;
+    const auto put = [&](const std::string& old, const std::string& fresh) {
+      for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += fresh.size())
+        text.replace(at, old.size(), fresh);
+    };
+    put("\"K0\"]", "\"K0\"" + terms + "]");
+    put("\"iterated\"", "\"" + estimator + "\"");
+    return said(results_of(text, 40, 1, 1.0, 9.0), "filter right (");
+  };
+  const std::string outliers = ", \"outliers\"", batch = "Set monte_carlo.estimator = \"batch\"";
+  for (const char* estimator : {"ekf", "iterated"}) {
+    const std::string text = with(estimator, outliers);
+    EXPECT_NE(text.find("Its model is the truth's; its residuals alarm in 0.0 % of the runs (by "
+                        "chance 5). So it is the estimator: it meets the samples one by one, and "
+                        "right after a caging cannot tell an outlier from what it does not know "
+                        "yet. " +
+                        batch),
+              std::string::npos)
+        << text;
+  }
+  EXPECT_EQ(with("batch", outliers).find(batch), std::string::npos);
+  EXPECT_NE(with("ekf", "").find("Set monte_carlo.estimator = \"iterated\""), std::string::npos);
+}
+
+/// A filter that lacks something of the truth is not excused by its estimator.
+TEST(StudyBrief, WhereTheModelIsNotTheTruthsNoEstimatorIsBlamed) {
+  EXPECT_EQ(said(results_of(test::small_study, 40, 1, 1.0, 9.0), "filter wrong (")
+                .find("it is the estimator"),
+            std::string::npos);
+}
+
 TEST(StudyBrief, WhereNoFilterFailsSilentlyNoPointIsTheWorst) {
   // Wilson's interval of 0 of 40 ends at z^2 / (40 + z^2) = 0.0876.
   EXPECT_EQ(report::study_in_brief(results_of(test::small_study, 40, 1)).verdict,
