@@ -6,6 +6,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
+#include "core/recording/sample_kind.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
@@ -82,9 +83,23 @@ void bridge_lone_cells(const std::vector<double>& time, double interval,
 
 }  // namespace
 
+double Signals::covered(std::size_t k) const {
+  if (k == 0) return interval;
+  const double step = time[k] - time[k - 1];
+  return std::min(step, sampled_over(step, interval));
+}
+
+Vec3 mean_between(const Signals& s, const std::vector<Vec3>& sensor, std::size_t k) {
+  const Vec3 half = 0.5 * (sensor[k - 1] + sensor[k]);
+  if (!s.means) return half;
+  const double part = s.covered(k) / (s.time[k] - s.time[k - 1]);
+  return part * sensor[k] + (1.0 - part) * half;
+}
+
 Signals signals_of(const Recording& recording) {
   const auto column = find_channels(recording);
   Signals signals;
+  signals.means = holds_mean_rates(recording);
   signals.time = column[0]->values;
   check_time(recording, signals.time);
   const std::size_t n = signals.time.size();
