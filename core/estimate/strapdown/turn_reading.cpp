@@ -44,7 +44,6 @@ Mat3 mean_attitude(const Mat3& before, const Mat3& half_way, const Mat3& after) 
 Vec3 turned(const Signals& s, std::size_t k, const Vec3& drift) {
   const double dt = s.time[k] - s.time[k - 1];
   const Vec3 a = s.gyro[k - 1] - drift, b = s.gyro[k] - drift;
-  if (!s.means) return 0.5 * dt * (a + b) + dt * dt / 12.0 * a.cross(b);
   return dt * (mean_between(s, s.gyro, k) - drift) +
          dt * dt * dt / (12.0 * between_middles(s, k)) * a.cross(b);
 }
@@ -86,6 +85,8 @@ TurnReading turn_reading(const Signals& s, std::size_t first, std::size_t last, 
       sums.add(share, mean_between(s, s.gyro, k), mean_between(s, s.acc, k),
                mean_attitude(before, half_way, C.transpose()));
     } else {
+      // What accelerometers read at instants, and the attitude and the rate at these, by one rule:
+      // what it lacks of one it lacks of the others.
       sums.add(0.5 * share, s.gyro[k - 1], s.acc[k - 1], before);
       sums.add(0.5 * share, s.gyro[k], s.acc[k], C.transpose());
     }

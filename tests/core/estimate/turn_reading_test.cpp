@@ -93,12 +93,13 @@ struct Coning {
     }
     return s;
   }
-  /// Attitude that is lost over samples [rad].
-  double error(const Signals& s) const {
-    Mat3 C = attitude(s.time.front());
-    for (std::size_t k = 1; k < s.size(); ++k) C = C * rotation(turned(s, k, Vec3::Zero()));
-    return rotation_vector(Mat3(attitude(s.time.back()).transpose() * C)).norm();
+  /// Attitude that is lost from one sample to another [rad].
+  double error(const Signals& s, std::size_t first, std::size_t last) const {
+    Mat3 C = attitude(s.time[first]);
+    for (std::size_t k = first + 1; k <= last; ++k) C = C * rotation(turned(s, k, Vec3::Zero()));
+    return rotation_vector(Mat3(attitude(s.time[last]).transpose() * C)).norm();
   }
+  double error(const Signals& s) const { return error(s, 0, s.size() - 1); }
 };
 
 constexpr Coning wobble{0.0139, 2.0};  // 10 deg/s at 2 Hz
@@ -111,8 +112,9 @@ std::vector<double> times_every(double dt, double uneven = 0.0) {
   return times;
 }
 
+/// Taken for instants they lose a twelfth of (angle of the motion in a sample)^2.
 TEST(TurnReading, AnglesGainedAreJoinedToFourthOrder) {
-  double before = 0.0;
+  double before = 0.0, wrong_before = 0.0;
   for (const double dt : {0.02, 0.01, 0.005}) {
     const Signals means = wobble.read_at(times_every(dt), true);
     const double error = wobble.error(means);
@@ -120,9 +122,12 @@ TEST(TurnReading, AnglesGainedAreJoinedToFourthOrder) {
     before = error;
     Signals taken_for_instants = means;
     taken_for_instants.means = false;
-    EXPECT_GT(wobble.error(taken_for_instants), 100.0 * error) << dt;
+    const double wrong = wobble.error(taken_for_instants);
+    if (wrong_before > 0.0) EXPECT_NEAR(wrong_before / wrong, 4.0, 0.3) << dt;
+    wrong_before = wrong;
   }
   EXPECT_LT(before, 2e-9);
+  EXPECT_GT(wrong_before, 100.0 * before);
 }
 
 /// A clock that jitters, and means of its own intervals.
@@ -148,16 +153,71 @@ TEST(TurnReading, AMeanStandsForItsOwnIntervalBehindALostRow) {
               0.2 * (bridged - gained).norm() + whole);
 }
 
-/// As it was before samples could be means: the trapezoid, to the last bit.
-TEST(TurnReading, InstantsAreJoinedByTheTrapezoid) {
-  const Signals s = wobble.read_at(times_every(0.01), false);
-  const Vec3 drift(1e-3, -2e-3, 3e-3);
-  for (const std::size_t k : {1u, 50u, 200u}) {
-    const double dt = s.time[k] - s.time[k - 1];
-    const Vec3 a = s.gyro[k - 1] - drift, b = s.gyro[k] - drift;
-    const Vec3 expected = 0.5 * dt * (a + b) + dt * dt / 12.0 * a.cross(b);
-    EXPECT_EQ(turned(s, k, drift), expected) << k;
+/// Instants, a clock that jitters, and a row that is lost.
+TEST(TurnReading, InstantsAreJoinedToFourthOrder) {
+  for (const double uneven : {0.0, 0.2}) {
+    double before = 0.0, with_ends = 0.0;
+    for (const double dt : {0.02, 0.01, 0.005}) {
+      const Signals s = wobble.read_at(times_every(dt, uneven), false);
+      const double error = wobble.error(s, 1, s.size() - 2), whole = wobble.error(s);
+      if (before > 0.0) EXPECT_GT(before / error, 12.0) << dt;
+      if (before > 0.0) EXPECT_GT(with_ends / whole, 12.0) << dt << ": parabolas at both ends";
+      before = error;
+      with_ends = whole;
+    }
+    EXPECT_LT(before, 5e-9);  // the trapezoid's: 1.6e-6
   }
+}
+
+TEST(TurnReading, ALostRowOfInstantsIsBridgedByTheCubic) {
+  double before = 0.0;
+  for (const double dt : {0.01, 0.005, 0.0025}) {
+    std::vector<double> times = times_every(dt);
+    const auto lost = static_cast<std::size_t>(std::lround(0.77 / dt));
+    times.erase(times.begin() + static_cast<std::ptrdiff_t>(lost));
+    Signals s = wobble.read_at(times, false);
+    s.interval = dt;
+    const double error = wobble.error(s, lost - 4, lost + 4);
+    if (before > 0.0) EXPECT_GT(before / error, 12.0) << dt;
+    before = error;
+  }
+}
+
+/// A sample that was not measured: the turns beside it are those of parabolas, of fourth order each
+/// as they are few; between two of them the trapezoid's, of third.
+TEST(TurnReading, InstantsBesideWhatIsNotMeasuredFallBack) {
+  double beside = 0.0, between = 0.0;
+  for (const double dt : {0.01, 0.005, 0.0025}) {
+    Signals s = wobble.read_at(times_every(dt), false);
+    const auto k = static_cast<std::size_t>(std::lround(0.77 / dt));
+    s.gyro[k + 1].setConstant(std::nan(""));
+    EXPECT_FALSE(turned(s, k + 1, Vec3::Zero()).allFinite());
+    EXPECT_FALSE(turned(s, k + 2, Vec3::Zero()).allFinite());
+    const double parabola = wobble.error(s, k - 1, k);
+    if (beside > 0.0) EXPECT_GT(beside / parabola, 12.0) << dt;
+    beside = parabola;
+    s.gyro[k - 2].setConstant(std::nan(""));
+    const Vec3 a = s.gyro[k - 1], b = s.gyro[k];
+    const Vec3 trapezoid = 0.5 * dt * (a + b) + dt * dt / 12.0 * a.cross(b);
+    EXPECT_LT((turned(s, k, Vec3::Zero()) - trapezoid).norm(), 1e-16);
+    const double line = wobble.error(s, k - 1, k);
+    EXPECT_GT(line, parabola);
+    if (between > 0.0) EXPECT_GT(between / line, 6.0) << dt;
+    between = line;
+  }
+}
+
+TEST(TurnReading, OfAnEvenTurnIsExact) {
+  const Vec3 rate(0.3, -0.7, 1.1), drift(1e-3, -2e-3, 3e-3);
+  Signals s;
+  s.interval = 0.01;
+  for (const double t : {0.0, 0.01, 0.0187, 0.031, 0.051, 0.06}) {
+    s.time.push_back(t);
+    s.gyro.push_back(rate + drift);
+    s.acc.push_back(Vec3::UnitZ());
+  }
+  for (std::size_t k = 1; k < s.size(); ++k)
+    EXPECT_LT((turned(s, k, drift) - (s.time[k] - s.time[k - 1]) * rate).norm(), 1e-17) << k;
 }
 
 }  // namespace
