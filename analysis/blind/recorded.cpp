@@ -17,6 +17,7 @@
 #include "core/estimate/layout.hpp"
 #include "core/estimate/strapdown/reread.hpp"
 #include "core/recording/recording_output.hpp"
+#include "core/recording/sample_kind.hpp"
 #include "core/stats/chi_square_band.hpp"
 
 namespace drift::blind {
@@ -27,6 +28,7 @@ using strapdown::CaseStudy;
 Recording rows_of(const Recording& all, std::size_t first, std::size_t last) {
   Recording out;
   out.source = all.source;
+  if (holds_mean_rates(all)) say_mean_rates(out);
   for (const Channel& c : all.channels)
     out.channels.push_back({c.name,
                             c.unit,

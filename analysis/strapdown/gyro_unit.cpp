@@ -35,7 +35,7 @@ std::vector<double> errors(const Signals& s, const std::vector<Dwell>& dwells, c
     if (turn < Limits::least_turn) continue;
     Mat3 R = Mat3::Identity();
     for (std::size_t k = from.last + 1; k <= to.first; ++k) {
-      const Vec3 rate = as.gyros.of(0.5 * (s.gyro[k - 1] + s.gyro[k]) - from.gyro);
+      const Vec3 rate = as.gyros.of(mean_between(s, s.gyro, k) - from.gyro);
       R = R * rotation(Vec3((s.time[k] - s.time[k - 1]) * as.times * rate));
     }
     if (!R.allFinite()) continue;  // a sample is missing

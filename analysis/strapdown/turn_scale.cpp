@@ -42,8 +42,7 @@ std::vector<Way> ways_of(const Signals& s, const std::vector<Dwell>& dwells, con
     for (std::size_t k = from.last + 1; k <= to.first; ++k) {
       const double part =
           static_cast<double>(k - from.last) / static_cast<double>(to.first - from.last);
-      const Vec3 rate =
-                     0.5 * (s.gyro[k - 1] + s.gyro[k]) - from.gyro - part * (to.gyro - from.gyro),
+      const Vec3 rate = mean_between(s, s.gyro, k) - from.gyro - part * (to.gyro - from.gyro),
                  step = (s.time[k] - s.time[k - 1]) * taken.cwiseProduct(rate);
       const Mat3 one = rotation(step);
       R = R * one;

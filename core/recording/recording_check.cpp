@@ -16,6 +16,7 @@
 #include "core/recording/rows/count_positions.hpp"
 #include "core/recording/rows/even_times.hpp"
 #include "core/recording/rows/turned_rows.hpp"
+#include "core/recording/sample_kind.hpp"
 #include "core/recording/sexagesimal.hpp"
 
 namespace drift {
@@ -239,8 +240,10 @@ Recording checked_recording(RawRecording raw, RecordingKind kind, double gravity
     problems.add("gimbal_outer, gimbal_middle, gimbal_inner", std::move(wrong), "decimal degrees",
                  "Say in [recording] of the study file angles = \"dd.mmss\", if 45.3015 is 45 deg "
                  "30' 15\", or angles = \"decimal\"");
-  if (raw.kind == SampleKind::increments && kind == RecordingKind::strapdown)
-    make_rates(r, gravity);
+  if (kind == RecordingKind::strapdown && raw.kind != SampleKind::rates) {
+    if (raw.kind == SampleKind::increments) make_rates(r, gravity);
+    say_mean_rates(r);
+  }
   if (raw.settled) {
     const std::string why = kind == RecordingKind::platform ? count_positions(r) : "";
     check_columns(r, kind, why, problems);

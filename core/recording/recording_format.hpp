@@ -26,10 +26,12 @@ inline constexpr Named<DecimalMark> decimal_marks[] = {
 
 /// What the sensors of a strapdown recording give.
 enum class SampleKind {
-  rates,       ///< means over the sample interval
-  increments,  ///< angle and velocity gained over the sample interval
+  rates,       ///< rates at the end of the sample interval, instants
+  mean_rates,  ///< means over the sample interval
+  increments,  ///< angle and velocity gained over the sample interval: means, times its length
 };
 inline constexpr Named<SampleKind> sample_kinds[] = {{"rates", SampleKind::rates},
+                                                     {"mean_rates", SampleKind::mean_rates},
                                                      {"increments", SampleKind::increments}};
 
 /// How numbers stand for angles in degrees.

@@ -7,6 +7,7 @@
 
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/sample_kind.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift {
@@ -91,7 +92,7 @@ Unit checked_unit(RawColumn& column, const UnitContext& context, Problems& probl
   if (quantity->unit.dim == "g*s"_unit.dim && unit->dim == velocity.dim)
     return {unit->symbol, unit->to_si / context.gravity, quantity->unit.dim};
   std::string fix = "Correct the unit or the name of the column";
-  if (context.samples == SampleKind::rates && context.kind == RecordingKind::strapdown &&
+  if (context.samples != SampleKind::increments && context.kind == RecordingKind::strapdown &&
       (unit->dim == unit::rad.dim || unit->dim == velocity.dim))
     fix =
         "Angles and velocities gained per sample need kind = \"increments\" in [recording] of the "
@@ -122,8 +123,7 @@ void make_rates(Recording& recording, double gravity) {
   const double usual = stats::upper_median(steps);
   if (!(usual > 0.0)) return;
   const auto length = [&](std::size_t row) {
-    const double step = row == 0 ? usual : steps[row - 1];
-    return std::abs(step - usual) > 0.5 * usual ? usual : step;
+    return row == 0 ? usual : sampled_over(steps[row - 1], usual);
   };
   for (Channel& c : recording.channels) {
     const bool gyro = c.name.starts_with("gyro_") && c.unit.dim == unit::rad.dim;

@@ -21,6 +21,11 @@ physics.md are those of [Physics](physics.md). w_l: drift of a gyro, w_md: its t
 case, f: specific force, delta: an offset of the attitude; I, O, S: input, output and spin axis of a gyro; dT: deviation of the
 temperature from its mean, of one recording or of all that are given together ([what that makes of several simulated
 tests](recording.md#several-recordings)). A study brings others: [own terms](own_terms.md).
+
+Sensors on a case read w_g = (I + S) C w_ic + w_l: C takes the true rate to what is read, rows as in gyro_misalignment, S has the s of
+torquer_scale, positive where a gyro reads too much, and of x, y, z as input axis O is the next axis and S the one after that, unless
+`[mounting]` says otherwise. As a formula that takes the errors off: [a strapdown
+unit](../../analysis/docs/real_recording.md#signs-and-how-to-take-the-errors-off).
 """
 STUDY = """# The study file
 

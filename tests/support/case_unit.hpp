@@ -59,9 +59,7 @@ struct Unit {
   Gyrocompass compass;
 };
 
-inline Unit unit_of(const test::StrapdownScript& script, const Theta& theta = sensors(),
-                    InTurns in_turns = InTurns::left_out) {
-  const Signals signals = signals_of(strapdown_recording(script, theta));
+inline Unit unit_of(const Signals& signals, InTurns in_turns = InTurns::left_out) {
   const auto dwells = find_dwells(signals, {}).dwells;
   Unit u;
   std::vector<double> azimuth;
@@ -71,6 +69,11 @@ inline Unit unit_of(const test::StrapdownScript& script, const Theta& theta = se
     azimuth = u.compass.azimuth;
   }
   return u;
+}
+
+inline Unit unit_of(const test::StrapdownScript& script, const Theta& theta = sensors(),
+                    InTurns in_turns = InTurns::left_out) {
+  return unit_of(signals_of(strapdown_recording(script, theta)), in_turns);
 }
 
 /// The platform's parameters that stand for the sensors' (case_test.hpp).

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
+#include "core/recording/sample_kind.hpp"
 #include "core/stats/median.hpp"
 
 namespace drift::strapdown {
@@ -80,11 +82,57 @@ void bridge_lone_cells(const std::vector<double>& time, double interval,
   }
 }
 
+/// A second divided difference of three samples, and how far the third is from the other two.
+struct Bend {
+  Vec3 of = Vec3::Zero();  ///< both in lengths of the interval between samples k - 1 and k
+  double away = 0.0;
+};
+
+/// How samples bend from k - 1 to k to their neighbour before or after. Nothing where none was
+/// measured, where rows lack in between, or where it is so near that its noise would be blown up.
+std::optional<Bend> bend(const Signals& s, const std::vector<Vec3>& sensor, std::size_t k,
+                         bool before) {
+  if (before ? k < 2 : k + 1 == s.size()) return std::nullopt;
+  const std::size_t outer = before ? k - 2 : k + 1, inner = before ? k - 1 : k;
+  const double dt = s.time[k] - s.time[k - 1], step = std::abs(s.time[outer] - s.time[inner]);
+  if (!sensor[outer].allFinite() || step > longest_step * s.interval || dt > longest_step * step)
+    return std::nullopt;
+  const double away = step / dt;
+  const Vec3 inside = sensor[before ? k : k - 1] - sensor[inner],
+             outside = (sensor[inner] - sensor[outer]) / away;
+  return Bend{(inside - outside) / (1.0 + away), away};
+}
+
+/// Mean of the cubic through instants k - 2 to k + 1 from k - 1 to k; of the parabola or the line
+/// through those that there are.
+Vec3 mean_of_instants(const Signals& s, const std::vector<Vec3>& sensor, std::size_t k) {
+  const Vec3 line = 0.5 * (sensor[k - 1] + sensor[k]);
+  const auto before = bend(s, sensor, k, true), after = bend(s, sensor, k, false);
+  if (!before && !after) return line;
+  if (!before || !after) return line - (before ? before->of : after->of) / 6.0;
+  const double p = before->away, q = after->away;
+  return line -
+         ((1.0 + 2.0 * q) * before->of + (1.0 + 2.0 * p) * after->of) / (12.0 * (1.0 + p + q));
+}
+
 }  // namespace
+
+double Signals::covered(std::size_t k) const {
+  if (k == 0) return interval;
+  const double step = time[k] - time[k - 1];
+  return std::min(step, sampled_over(step, interval));
+}
+
+Vec3 mean_between(const Signals& s, const std::vector<Vec3>& sensor, std::size_t k) {
+  if (!s.means) return mean_of_instants(s, sensor, k);
+  const double part = s.covered(k) / (s.time[k] - s.time[k - 1]);
+  return part * sensor[k] + 0.5 * (1.0 - part) * (sensor[k - 1] + sensor[k]);
+}
 
 Signals signals_of(const Recording& recording) {
   const auto column = find_channels(recording);
   Signals signals;
+  signals.means = holds_mean_rates(recording);
   signals.time = column[0]->values;
   check_time(recording, signals.time);
   const std::size_t n = signals.time.size();

@@ -7,8 +7,17 @@
 
 namespace drift::strapdown {
 
-/// Turn of the case from sample k - 1 to sample k: the trapezoid and coning, w_a x w_b dt^2 / 12.
-/// drift: what the gyros read at rest.
+/// Turn of the case from sample k - 1 to sample k, a rotation vector:
+///
+///   <w> dt + dt^3 / (12 T) w_a x w_b    <w>: mean_between(),
+///
+/// w_a and w_b what the two samples read and T what lies between what they are read over: of
+/// instants, and of the middles of means over even intervals, dt. Of means these are the angles
+/// that were gained: alpha_b + alpha_a x alpha_b / 12 (Savage, J. Guidance, Control, and Dynamics
+/// 21(1), 1998); of instants the cubic's mean, and w_a x w_b dt^2 / 12. w_a x w_b is T times the
+/// rate cross the acceleration in the middle, up to T^3: either lacks dt^5 of a turn, of a motion
+/// that goes round (coning) the fourth order in the interval, and the second where one is taken for
+/// the other. drift: what the gyros read at rest.
 Vec3 turned(const Signals& signals, std::size_t k, const Vec3& drift);
 
 /// Whether the rate changes at sample k by so much of itself that half a sample is more than 5e-4
@@ -27,8 +36,8 @@ struct TurnReading {
   CaseTurn turn;
 };
 
-/// Means from sample `first` to sample `last` by the trapezoid, as turned() takes the rates: gyros
-/// and accelerometers are taken at the same times, whether a sample is an instant or a mean. A row
+/// Means from sample `first` to sample `last`: over the samples of means, of instants by the
+/// trapezoid. Gyros and accelerometers are both instants, or both means over one interval. A row
 /// is predicted as an even turn; where the rate changes within it, the case does not face gravity
 /// as in an even one. What that makes,
 ///

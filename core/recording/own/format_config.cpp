@@ -230,11 +230,11 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
     read_own_header(section, Option{.key = "date", .doc = "header of the dates of times of day"},
                     format.date);
     section.read(Option{.key = "kind", .doc = "what a sample is"}, format.kind, sample_kinds);
-    if (format.kind == SampleKind::increments && kind == RecordingKind::platform)
+    if (format.kind != SampleKind::rates && kind == RecordingKind::platform)
       section.report().error(section.take("kind")->at,
-                             fmt::format("'{}' = \"increments\" is for sensors fixed to a case "
+                             fmt::format("'{}' = \"{}\" is for sensors fixed to a case "
                                          "(expected \"rates\" for a platform). Remove it",
-                                         section.full("kind")));
+                                         section.full("kind"), name_in(sample_kinds, format.kind)));
     if (format.decimal == DecimalMark::comma && format.delimiter == Delimiter::comma)
       section.report().error(section.take("decimal")->at,
                              fmt::format("'{}' and '{}' are both a comma (expected two marks). "

@@ -1,0 +1,108 @@
+// What the rates of a strapdown recording are, said by the study or by the file.
+#include "core/recording/sample_kind.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/config/load.hpp"
+#include "core/estimate/strapdown/signals.hpp"
+#include "core/recording/canonical_units.hpp"
+#include "core/recording/own/format_config.hpp"
+#include "recording_fixture.hpp"
+
+namespace drift::sample_kind_test {
+namespace {
+
+using namespace test;
+
+/// What [recording] says; the mistakes in it are thrown.
+RecordingFormat format_of(const std::string& text, RecordingKind kind = RecordingKind::strapdown) {
+  const config::Node root = config::parse_document(text, "study.toml");
+  config::Report report("study.toml");
+  const auto format = read_recording_format(
+      config::Section(report, &root, config::Place{}, "recording"), kind, {"z up"});
+  report.throw_if_wrong();
+  return format;
+}
+
+std::string mistake(const std::string& text, RecordingKind kind) {
+  try {
+    format_of(text, kind);
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.messages().size(), 1u) << e.what();
+    return e.what();
+  }
+  return "";
+}
+
+std::string rows_of(const std::string& header, const std::string& readings) {
+  std::string text = "time [s]," + header + "\n";
+  for (const char* t : {"0.5", "1", "1.5", "2", "2.5"}) text += std::string(t) + readings + "\n";
+  return text;
+}
+
+const std::string rates = rows_of(
+    "gyro_x [deg/s],gyro_y [deg/s],gyro_z [deg/s],acc_x [g],acc_y [g],acc_z [g]", ",1,2,-3,0,0,1");
+const std::string increments =
+    rows_of("gyro_x [deg],gyro_y [deg],gyro_z [deg],acc_x [m/s],acc_y [m/s],acc_z [m/s]",
+            ",1,2,-3,0,0,4.903325");
+
+Recording read(const std::string& path, const std::string& section) {
+  return read_recording(path, format_of(section), RecordingKind::strapdown, gravity);
+}
+
+TEST(SampleKinds, RatesAreInstantsUntilTheStudySaysThatTheyAreMeans) {
+  const Folder folder;
+  const std::string path = folder.write("rates.csv", rates);
+  EXPECT_FALSE(holds_mean_rates(read(path, "")));
+  EXPECT_FALSE(holds_mean_rates(read(path, "kind = \"rates\"\n")));
+  const Recording means = read(path, "kind = \"mean_rates\"\n");
+  EXPECT_TRUE(holds_mean_rates(means));
+  EXPECT_TRUE(strapdown::signals_of(means).means);
+  EXPECT_EQ(means.find("gyro_z")->values, read(path, "").find("gyro_z")->values);
+}
+
+TEST(SampleKinds, IncrementsAreMeansTimesTheirInterval) {
+  const Folder folder;
+  const Recording r = read(folder.write("increments.csv", increments), "kind = \"increments\"\n");
+  EXPECT_TRUE(holds_mean_rates(r));
+  EXPECT_NEAR(r.find("gyro_z")->values[2], -6.0 * detail::deg, 1e-15);
+}
+
+/// As `convert` writes it: what is read again needs no line in the study.
+TEST(SampleKinds, AFileThatSaysItNeedsNoKey) {
+  const Folder folder;
+  const Recording r = in_canonical_units(
+      read(folder.write("increments.csv", increments), "kind = \"increments\"\n"));
+  for (const char* name : {"again.csv", "again.h5", "again.mat"}) {
+    write_recording(r, folder / name);
+    const Recording again = read(folder / name, "");
+    EXPECT_TRUE(holds_mean_rates(again)) << name;
+    EXPECT_NEAR(again.find("gyro_z")->values[2], -6.0 * detail::deg, 1e-12) << name;
+    const Recording twice = read(folder / name, "kind = \"mean_rates\"\n");
+    EXPECT_EQ(twice.facts, again.facts) << name << ": said once";
+  }
+}
+
+TEST(SampleKinds, WhatIsNoneIsRefused) {
+  EXPECT_NE(mistake("kind = \"means\"", RecordingKind::strapdown)
+                .find("'recording.kind' is the string \"means\" (expected one of \"rates\", "
+                      "\"mean_rates\", \"increments\")"),
+            std::string::npos)
+      << mistake("kind = \"means\"", RecordingKind::strapdown);
+  EXPECT_NE(mistake("kind = \"mean_rates\"", RecordingKind::platform)
+                .find("'recording.kind' = \"mean_rates\" is for sensors fixed to a case"),
+            std::string::npos)
+      << mistake("kind = \"mean_rates\"", RecordingKind::platform);
+  const Folder folder;
+  const std::string path = folder.write("increments.csv", increments);
+  try {
+    read(path, "kind = \"mean_rates\"\n");
+    FAIL() << "angles were read as rates";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("need kind = \"increments\""), std::string::npos)
+        << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace drift::sample_kind_test
