@@ -23,6 +23,14 @@ struct Difference {
   bool first;           ///< of its dwell or slew
 };
 
+/// The range of samples in order: of four about one of a dwell without the one that is farthest
+/// from their median, which may be astray as well.
+double spread_of(const std::vector<double>& around, double median, bool without_farthest) {
+  const double least = around.front(), most = around.back();
+  if (!without_farthest) return most - least;
+  return most - median > median - least ? around[around.size() - 2] - least : most - around[1];
+}
+
 /// The rows about one of a slew, two to either side, of whatever comes before and after it as long
 /// as the platform is not caged: it moves fast, and goes on from there. None at the ends of a
 /// chain, and of a slew of so few rows that one is a motion by itself.
@@ -74,8 +82,12 @@ std::vector<Difference> differences(const Mat3X& residual, const std::vector<Int
       if (around.size() < 3) continue;
       std::sort(around.begin(), around.end());
       const double median = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
+      // A curve of one bend takes the middle one of five two ranges of three away at most, where it
+      // bends at its end any number.
+      const bool amid = !slew && i - first == reach && last - i == reach &&
+                        around.size() == static_cast<std::size_t>(2 * reach);
       all.push_back(
-          {a, i, std::abs(residual(a, i) - median), around.back() - around.front(), first == i});
+          {a, i, std::abs(residual(a, i) - median), spread_of(around, median, amid), first == i});
     }
   return all;
 }
