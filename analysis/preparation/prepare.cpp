@@ -116,8 +116,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     leave_out_held_rows(r, p.remarks);
     leave_out_stuck(r, p.remarks);
     if (std::string text = other_branch(r); !text.empty()) p.remarks.push_back(std::move(text));
-    for (const std::string& text :
-         {other_than_one_g(study, r), other_unit_of_time(r), shifted_numbers(r, study.plan)})
+    for (const std::string& text : {other_than_one_g(study, r), other_unit_of_time(r),
+                                    in_own_names(shifted_numbers(r, study.plan), study.recording)})
       if (!text.empty()) wrong.push_back(text);
     remark_missing(r, study.readout, p.remarks);
     for (std::string& text : unmapped_temperature_of_terms(study, r))
