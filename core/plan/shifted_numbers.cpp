@@ -91,12 +91,28 @@ bool with_numbers(const std::vector<Change>& changes, std::optional<SeenTurn> Ch
   });
 }
 
-std::string off_columns(const std::vector<Change>& changes, std::ptrdiff_t behind,
-                        std::size_t positions) {
+/// Whether readings are held: more rows repeat the row before than do not.
+bool held(const Recording& r, const ChannelTriple& channels) {
+  std::size_t repeats = 0;
+  for (std::size_t row = 1; row < r.rows(); ++row)
+    repeats += std::ranges::all_of(channels.names, [&](std::string_view name) {
+      const auto& values = r.find(name)->values;
+      return values[row] == values[row - 1];
+    });
+  return 2 * repeats > r.rows();
+}
+
+std::string off_columns(const Recording& r, const std::vector<Change>& changes,
+                        std::ptrdiff_t behind, std::size_t positions) {
   const bool gimbals_right = with_numbers(changes, &Change::gimbals),
              acc_right = with_numbers(changes, &Change::accelerometers);
   const std::size_t rows = static_cast<std::size_t>(std::abs(behind));
   const auto columns = [&](const ChannelTriple& channels, bool late) {
+    if (late && held(r, channels))
+      return fmt::format(
+          "columns {} hold what they read for some rows. Keep the rows alone in which they read "
+          "anew",
+          fmt::join(channels.names, ", "));
     return fmt::format(
         "columns {} stand {} rows {}. Move them {} rows {} in the export, and leave "
         "empty the cells of which nothing is known then",
@@ -225,7 +241,7 @@ std::string shifted(const Recording& r, const TestPlan* plan) {
     text = turns_in_positions(r, changes);
     if (text.empty()) text = late_or_early(changes);
   } else if (behind.size() == 1 && apart >= fewest_positions) {
-    text = off_columns(changes, behind.begin()->first, apart);
+    text = off_columns(r, changes, behind.begin()->first, apart);
   }
   return text.empty() ? "" : fmt::format("{}: {}", r.source.empty() ? "recording" : r.source, text);
 }

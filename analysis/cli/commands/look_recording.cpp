@@ -9,6 +9,7 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/held_rows.hpp"
+#include "analysis/preparation/rows/raw_spikes.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
@@ -127,6 +128,8 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     for (const std::string& wrong : {preparation::other_unit_of_time(r),
                                      plan ? shifted_numbers(r, *plan) : shifted_numbers(r)})
       if (!wrong.empty()) show("\n{}\n", report::wrapped(wrong, 98));
+    for (const preparation::RawSpikes& spikes : preparation::raw_spikes(r))
+      show("\n{}\n", report::wrapped(preparation::raw_spikes_text(r, spikes), 98));
     const Recording measured = preparation::without_held_rows(r);
     const auto rests = preparation::resting_rows(measured);
     card = preparation::noise_card(measured, kind, rests);
