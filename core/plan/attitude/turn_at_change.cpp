@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/linalg.hpp"
+#include "core/physics/gimbals.hpp"
 #include "core/plan/attitude_slips.hpp"
 #include "core/plan/slew_check.hpp"
 
@@ -36,9 +37,14 @@ class Shown {
     const Vec3 x = measured(recording_, channels_, a).value(),
                y = measured(recording_, channels_, b).value();
     if (channels_.names != gimbal_channels.names) return std::atan2(x.cross(y).norm(), x.dot(y));
-    return rotation_vector(Mat3(local_attitude_shown(recording_, a, x) *
-                                local_attitude_shown(recording_, b, y).transpose()))
-        .norm();
+    const auto between = [](const Mat3& from, const Mat3& to) {
+      return rotation_vector(Mat3(from * to.transpose())).norm();
+    };
+    // A case that turns about a platform that stands moves the angles; a heading that is written
+    // with the number, where the angles come rows later, moves the attitude.
+    return std::min(
+        between(gimbal_chain(x), gimbal_chain(y)),
+        between(local_attitude_shown(recording_, a, x), local_attitude_shown(recording_, b, y)));
   }
 
   /// The rows of a stretch that are looked at: the first one measured of each `stride`.

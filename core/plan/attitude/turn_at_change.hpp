@@ -23,9 +23,9 @@ struct SeenTurn {
 
 /// The turn that gimbals, or accelerometers by their Up, show around where the number of the
 /// position changes, in the last quarter of the rows before and the first quarter of those behind:
-/// all motion there that is faster than that of the dwells, by more than a plan may be missed
-/// (largest_mismatch) from its begin to its end, and a reading that is none turns back. Empty where
-/// there is none, or where the dwells move as fast.
+/// all motion there, of angles and of the attitude, that is faster than that of the dwells, by more
+/// than a plan may be missed (largest_mismatch) from its begin to its end, and a reading that is
+/// none turns back. Empty where there is none, or where the dwells move as fast.
 std::optional<SeenTurn> turn_at_change(const Recording& recording, const ChannelTriple& channels,
                                        const Stretch& before, const Stretch& behind);
 

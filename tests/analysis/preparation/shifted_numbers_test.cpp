@@ -118,7 +118,7 @@ void expect_part(const std::string& said, const std::string& part) {
   EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
 }
 
-/// Four of the five changes turn Up, by which the accelerometers tell.
+/// The case turns with some of the numbers, whatever the gimbals show there.
 TEST(ColumnsRowsOff, AreToldByTheInstrumentThatTurnsWithTheNumbers) {
   const mc::Study study = test::six_study(1200.0, 10.0);
   const Recording right = test::simulated(study);
@@ -131,6 +131,7 @@ TEST(ColumnsRowsOff, AreToldByTheInstrumentThatTurnsWithTheNumbers) {
       expect_part(said, fmt::format("columns {}, {}, {} stand {} rows {}. Move them {} rows {}",
                                     off.names[0], off.names[1], off.names[2], std::abs(rows), way,
                                     std::abs(rows), move));
+      expect_part(said, "in 5 of them");
       EXPECT_EQ(said.find("numbers of the positions change"), std::string::npos) << said;
       EXPECT_EQ(said, shifted_numbers(wrong)) << "what look says, without a plan";
       EXPECT_EQ(shifted_numbers(moved(wrong, off, -rows), study.plan), "") << "the advice";
@@ -178,6 +179,17 @@ TEST(TurnsInPositions, AreToldWithTheRowsThatTheyTake) {
     expect_part(said, "[recording] ignore = [\"position\"]");
     EXPECT_EQ(said, shifted_numbers(wrong));
     EXPECT_THROW(preparation::prepare(study, {wrong}), InputError);
+  }
+}
+
+TEST(TurnsInPositions, AreToldWithTheHeaderThatTheColumnHas) {
+  mc::Study study = test::six_study(1200.0, 10.0);
+  study.recording.columns.push_back({"position", "Label", std::nullopt});
+  try {
+    preparation::prepare(study, {turning(test::simulated(study), 20)});
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    expect_part(error.what(), "ignore = [\"Label\"]");
   }
 }
 
