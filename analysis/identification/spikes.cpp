@@ -8,14 +8,14 @@
 
 #include "analysis/inference/thresholds.hpp"
 #include "core/plan/stretches_and_chains.hpp"
+#include "core/stats/among_neighbours.hpp"
 
 namespace drift::identification {
 namespace {
 
 using inference::SampleLimits;
 
-constexpr int reach = 2;                          // samples to either side
-constexpr double median_of_size = 0.6745 * 1.14;  // a normal against the median of four others
+constexpr int reach = 2;  // samples to either side
 
 struct Difference {
   int axis, sample;
@@ -72,10 +72,12 @@ std::vector<Difference> differences(const Mat3X& residual, const std::vector<Int
       for (int k = first; k <= last; ++k)
         if (k != i && std::isfinite(residual(a, k))) around.push_back(residual(a, k));
       if (around.size() < 3) continue;
-      std::sort(around.begin(), around.end());
-      const double median = 0.5 * (around[around.size() / 2] + around[(around.size() - 1) / 2]);
-      all.push_back(
-          {a, i, std::abs(residual(a, i) - median), around.back() - around.front(), first == i});
+      // A curve of one bend takes the middle one of five two ranges of three away at most, where it
+      // bends at its end any number.
+      const bool amid = !slew && i - first == reach && last - i == reach &&
+                        around.size() == static_cast<std::size_t>(2 * reach);
+      const auto among = stats::among_neighbours(residual(a, i), around, amid);
+      all.push_back({a, i, among.size, among.spread, first == i});
     }
   return all;
 }
@@ -87,7 +89,7 @@ std::vector<Difference> spikes_of(const Mat3X& residual, const std::vector<Inter
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Difference& x, const Difference& y) { return x.size < y.size; });
-  const double noise = middle->size / median_of_size;
+  const double noise = middle->size / stats::usual_size_among_four;
   const double limit = SampleLimits::spike * std::max(noise, 1.0);
   std::erase_if(all, [&](const Difference& d) {
     return d.size <= limit + SampleLimits::spike_spread * d.spread;

@@ -20,9 +20,11 @@ struct Spike {
 /// with the median of the four around it in its channel: of a dwell within the dwell (at its ends:
 /// with the four beside it; what stands out at the beginning of several dwells is no lone sample),
 /// of a slew with two rows before and two after, on whichever side of its ends: a motion that the
-/// model lacks goes on there, and five rows of it stay within what their range allows for. Where
-/// the instrument is noisier than declared, its own noise is the measure. Of noise and motion alone
-/// any sample is taken for isolated with a chance of 1e-4 at most (SampleLimits).
+/// model lacks goes on there, and five rows of it stay within what their range allows for. Of two
+/// rows on either side within a dwell one may be astray itself: two such samples beside each other
+/// are both found. Where the instrument is noisier than declared, its own noise is the measure. Of
+/// noise and motion alone any sample is taken for isolated with a chance of 1e-4 at most
+/// (SampleLimits).
 struct Despiked {
   Measurements measured;      ///< with those samples not measured
   std::vector<Spike> spikes;  ///< those samples

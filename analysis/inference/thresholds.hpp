@@ -79,8 +79,9 @@ struct SampleLimits {
   /// [sigma, the larger of declared and found] from the median of four neighbours: 7 of its own
   /// sigma (1.14). Normal noise has one so far away in 4e11 samples, any in a test of 4e7 samples
   /// with a chance of 1e-4. On top of it so many ranges of the neighbours: a motion that only rises
-  /// or falls over the five, or turns once, takes the middle one at most 1.5 ranges away.
-  /// Test: Thresholds.ASpikeIs...
+  /// or falls over the five, or turns once, takes the middle one at most 1.5 ranges away, and two
+  /// ranges of the three neighbours without the farthest (dwells): p, 2p, q, 2q above the lowest,
+  /// with q = 2p. Test: Thresholds.ASpikeIs..., IsolatedSamples.TwoBesideEachOther...
   static constexpr double spike = 8.0, spike_spread = 2.0;
   /// Chi-square per row, under the noise of neighbours' differences, from which noise that drives
   /// the platform is believed only if it is of a usual size (NoisePrior::usual): a long test with a

@@ -86,6 +86,19 @@ struct HeldLimits {
   static constexpr double most = 0.1;
 };
 
+/// Single readings among fine rows that are none, before rows are joined. Test: RawSpikes.*
+struct RawSpikeLimits {
+  /// [sigma] from the median of four neighbours, and ranges of them on top of it, without the
+  /// farthest: as SampleLimits of analysis/inference has it of residuals, of normal noise one in
+  /// 4e11 readings. Steps of a coarse readout count as a sigma.
+  static constexpr double size = 8.0, spread = 2.0;
+  /// Part of a channel's readings: of more than that the noise is not normal, and none is left out.
+  static constexpr double most = 0.02;
+  /// Readings of which the noise is known to 12 % (1 sigma): fewer do not tell; and of how many at
+  /// most it is taken.
+  static constexpr std::size_t enough = 100, of_noise = 100000;
+};
+
 /// When a gimbal reads a constant too much.
 struct GimbalZeroLimits {
   /// [of what biases and misalignments make of Up, 1 sigma: 0.06 deg with the library's priors] so

@@ -20,7 +20,11 @@ std::string in_own_names(std::string message, const RecordingFormat& format) {
   };
   for (const MappedColumn& m : format.columns) {
     const bool a_word = m.channel.find('_') == std::string::npos;  // "position", "time"
-    if (a_word || m.own == m.channel || message.find(m.channel) == std::string::npos) continue;
+    if (m.own == m.channel || message.find(m.channel) == std::string::npos) continue;
+    if (a_word) {
+      replace(fmt::format("\"{}\"", m.channel), fmt::format("\"{}\"", m.own));
+      continue;
+    }
     const std::string unit = m.unit ? fmt::format(" [{}]", *m.unit) : "";
     for (const double sign : {1.0, -1.0})
       if (replace(fmt::format("\"{}{}\"", sign < 0.0 ? "-" : "", m.channel),

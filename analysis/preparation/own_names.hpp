@@ -9,7 +9,8 @@
 namespace drift::preparation {
 
 /// A message about channels in the words of the user's file: `"-acc_z"` as what [recording] columns
-/// would say, and behind it which columns the channels are.
+/// would say, and behind it which columns the channels are. Of channels whose names are words
+/// (position) only what stands between quotes.
 std::string in_own_names(std::string message, const RecordingFormat& format);
 
 /// Behind the first message about each of several files, which begins with its name, that advises a

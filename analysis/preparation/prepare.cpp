@@ -21,12 +21,14 @@
 #include "analysis/preparation/recorded_test.hpp"
 #include "analysis/preparation/rounding_noise.hpp"
 #include "analysis/preparation/rows/parts_of_one.hpp"
+#include "analysis/preparation/rows/raw_spikes.hpp"
 #include "analysis/preparation/rows/take_rows.hpp"
 #include "core/base/check.hpp"
 #include "core/plan/plan_rows.hpp"
 #include "core/plan/shifted_numbers.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/rows/check_time.hpp"
+#include "core/recording/rows/row_spacing.hpp"
 #include "core/sim/measurements.hpp"
 #include "mc/study/own_terms_check.hpp"
 
@@ -101,6 +103,18 @@ std::string off_zero_in(const Prepared& p) {
   return "";
 }
 
+/// Whether the rows of a recording become fewer: finer than the plan's samples, or too many.
+bool are_joined(const Prepared& p, const Recording& r, std::size_t most_rows) {
+  std::size_t rows = 0;
+  for (const Recording& each : p.recordings) rows += each.rows();
+  if (rows > most_rows) return true;
+  const std::vector<double> planned = planned_samples(r, p.study.plan);
+  const std::vector<double> usual = row_spacing(r, planned).usual;
+  for (std::size_t row = 0; row < r.rows(); ++row)
+    if (1.5 * usual[row] < planned[row]) return true;
+  return false;
+}
+
 }  // namespace
 
 Prepared prepare(const mc::Study& study, const std::vector<Recording>& recordings,
@@ -116,8 +130,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     leave_out_held_rows(r, p.remarks);
     leave_out_stuck(r, p.remarks);
     if (std::string text = other_branch(r); !text.empty()) p.remarks.push_back(std::move(text));
-    for (const std::string& text :
-         {other_than_one_g(study, r), other_unit_of_time(r), shifted_numbers(r, study.plan)})
+    for (const std::string& text : {other_than_one_g(study, r), other_unit_of_time(r),
+                                    in_own_names(shifted_numbers(r, study.plan), study.recording)})
       if (!text.empty()) wrong.push_back(text);
     remark_missing(r, study.readout, p.remarks);
     for (std::string& text : unmapped_temperature_of_terms(study, r))
@@ -127,6 +141,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
   for (std::string& text : mistakes_of_own_columns(p.recordings, p.remarks))
     wrong.push_back(std::move(text));
   // As long as rows are those of the files.
+  for (Recording& r : p.recordings)
+    if (are_joined(p, r, most_rows)) leave_out_raw_spikes(r, p.remarks);
   const Rounding rounding = rounding_of(p.recordings);
   const std::vector<SteppedCovariate> stepped = stepped_covariates(p.recordings);
   std::vector<std::vector<ColumnGaps>> gaps;

@@ -17,7 +17,6 @@ namespace drift {
 namespace {
 
 constexpr std::size_t fewest_turns = 3;
-constexpr double fastest_drift = 20.0 * detail::earth_rate;  // a slower command is no slew
 /// Part of what was commanded by which a turn may be another one: no scale factor is off by so
 /// much, and of exchanged columns a whole turn remains.
 constexpr double same_turn = 0.1;

@@ -14,6 +14,9 @@ namespace drift {
 inline constexpr Unit rate_units[] = {"rad/s"_unit, "deg/s"_unit, "arcmin/s"_unit, "arcsec/s"_unit,
                                       "deg/h"_unit, "rad/h"_unit, "mrad/s"_unit};
 
+/// [rad/s] No drift is so fast: a slower command is no slew.
+inline constexpr double fastest_drift = 20.0 * detail::earth_rate;
+
 /// Attitude of the platform against the local axes, as gimbal angles [rad] and the heading of the
 /// case in a row show it.
 Mat3 local_attitude_shown(const Recording& recording, std::size_t row, const Vec3& angles);

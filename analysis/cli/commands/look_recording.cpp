@@ -9,12 +9,14 @@
 #include "analysis/cli/print.hpp"
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/held_rows.hpp"
+#include "analysis/preparation/rows/raw_spikes.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
+#include "core/plan/shifted_numbers.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/recording_files.hpp"
 #include "core/recording/rows/quality_card.hpp"
@@ -107,9 +109,10 @@ void show_scatter(const Recording& r, const std::vector<preparation::RestingRows
          fmt::join(said, ", "));
 }
 
-/// The recording as a whole; the noise that its rests show comes back.
+/// The recording as a whole, of a plan where one is known; the noise that its rests show comes
+/// back.
 preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, double static_min,
-                                      double gravity) {
+                                      double gravity, const TestPlan* plan = nullptr) {
   show("\n{}", to_text(quality_card(r, kind)));
   if (const auto f = usual_force(r))
     show("the accelerometers together usually read {:.6f} g (1 at rest){}\n", *f,
@@ -122,8 +125,11 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     card = strapdown::noise_of(r, search);
   } else {
     show_positions(r);
-    if (const std::string wrong = preparation::other_unit_of_time(r); !wrong.empty())
-      show("\n{}\n", report::wrapped(wrong, 98));
+    for (const std::string& wrong : {preparation::other_unit_of_time(r),
+                                     plan ? shifted_numbers(r, *plan) : shifted_numbers(r)})
+      if (!wrong.empty()) show("\n{}\n", report::wrapped(wrong, 98));
+    for (const preparation::RawSpikes& spikes : preparation::raw_spikes(r))
+      show("\n{}\n", report::wrapped(preparation::raw_spikes_text(r, spikes), 98));
     const Recording measured = preparation::without_held_rows(r);
     const auto rests = preparation::resting_rows(measured);
     card = preparation::noise_card(measured, kind, rests);
@@ -218,7 +224,7 @@ ExitCode look(const StudyArguments& arguments, const std::string& recording) {
   const mc::Study study = arguments.read();
   const auto card =
       show_recording(read_recording(recording, study.recording, study.kind, study.site.gravity),
-                     study.kind, study.static_min, study.site.gravity);
+                     study.kind, study.static_min, study.site.gravity, &study.plan);
   show_paste("", card, "");
   show_commands(recording, study.kind);
   return ExitCode::ok;

@@ -93,6 +93,50 @@ TEST(IsolatedSamples, NoMotionIsOneThatRisesOrFallsOrTurnsOnce) {
   }
 }
 
+/// The limit is 8 for samples whose neighbours are quiet but for the other one of the two.
+TEST(IsolatedSamples, TwoBesideEachOtherInADwellAreBothFound) {
+  const Timeline timeline = dwell_slew_dwell(9);
+  for (const int apart : {1, 2})
+    for (const double other : {8.1, -8.1, 2000.0}) {
+      Mat3X residual = Mat3X::Zero(3, static_cast<int>(timeline.intervals.size()));
+      residual(1, 8) = 8.1;
+      residual(1, 8 + apart) = other;
+      EXPECT_EQ(spikes_in(timeline, residual), 2u) << apart << " " << other;
+      residual(1, 8) = 0.0;
+      EXPECT_EQ(spikes_in(timeline, residual), 1u) << apart << " " << other;
+    }
+}
+
+/// What decays from the begin of every dwell, however fast, and a curve of one bend but for its
+/// ends, where nobody knows how it went on.
+TEST(IsolatedSamples, NoMotionOfADwellIsOne) {
+  const Timeline timeline = dwell_slew_dwell(9);
+  const auto n = static_cast<int>(timeline.intervals.size());
+  for (const double each : {0.01, 0.1, 0.4, 0.7, 0.95}) {
+    Mat3X residual = Mat3X::Zero(3, n);
+    for (const int begin : {0, 29})
+      for (int k = 0; k < 20; ++k) residual(0, begin + k) = 1e6 * std::pow(each, k);
+    EXPECT_EQ(spikes_in(timeline, residual), 0u) << each;
+  }
+  BatchResult fit;
+  Readout readout;
+  readout.gimbals = false;
+  Stream stream(6, 0, Purpose::test, 0);
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<double> slopes;
+    for (int k = 0; k < 20; ++k) slopes.push_back(std::pow(10.0, 3.0 * stream.normal()));
+    std::ranges::sort(slopes);
+    const double turn = trial % 2 == 0 ? 0.0 : slopes[10];
+    fit.acc_residual = Mat3X::Zero(3, n);
+    for (int k = 1; k < 20; ++k)
+      fit.acc_residual(0, k) =
+          fit.acc_residual(0, k - 1) + slopes[static_cast<std::size_t>(k)] - turn;
+    const auto clean =
+        without_spikes({Mat3X::Zero(3, n), Mat3X::Zero(3, n)}, timeline, readout, fit);
+    EXPECT_TRUE(clean.measured.acc.row(0).segment(2, 16).array().isFinite().all()) << trial;
+  }
+}
+
 /// Tests of fifty platforms with slews, each with noise of its own; how many have isolated samples
 /// under a model of eq. (5).
 int of_fifty(Coupling truth_coupling) {

@@ -33,7 +33,10 @@ bool is_spike(double size, double range = 0.0, double noise = 1.0, bool in_turn 
   for (int k = 0; k < n; ++k)
     if (std::abs(k - at) > 4) fit.acc_residual.col(k).setConstant(k % 4 < 2 ? a : -a);
   fit.acc_residual(0, at) = size;
-  if (range != 0.0) fit.acc_residual(0, at - 2) = range;
+  if (range != 0.0) {  // without the neighbour that is farthest away, and about one median
+    fit.acc_residual(0, at - 2) = range;
+    fit.acc_residual(0, at + 2) = -range;
+  }
   if (also_at >= 0) {  // a second dwell begins as the first one does
     for (int k = also_at; k < n; ++k) timeline.intervals[k].position = 1;
     fit.acc_residual.middleCols(also_at, 5).setZero();

@@ -1,9 +1,16 @@
 #include "core/plan/shifted_numbers.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
 
 #include "analysis/preparation/prepare.hpp"
 #include "core/base/check.hpp"
+#include "core/recording/recording_channels.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::shifted_numbers_test {
@@ -87,11 +94,125 @@ TEST(ShiftedNumbers, RowsOnTheWayAtTheEndOfPositionsAreToldAsThat) {
   }
   const std::string said = shifted_numbers(turned, study.plan);
   EXPECT_NE(
-      said.find(
-          "the last rows of 5 positions, up to 3, show the platform in the next or on the way"),
+      said.find("the last rows of 5 positions, up to 3 (lines 18 to 20), show the platform in "
+                "the next or on the way"),
       std::string::npos)
       << said;
   EXPECT_EQ(shifted_numbers(spikes, study.plan), "");
+}
+
+/// Columns so many rows later in the file, or earlier, against all others.
+Recording moved(Recording r, const ChannelTriple& channels, std::ptrdiff_t rows) {
+  for (const std::string_view name : channels.names) {
+    std::vector<double>& values = test::channel(r, name);
+    const std::vector<double> was = values;
+    const auto last = static_cast<std::ptrdiff_t>(was.size()) - 1;
+    for (std::ptrdiff_t k = 0; k <= last; ++k)
+      values[static_cast<std::size_t>(k)] =
+          was[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k - rows, 0, last))];
+  }
+  return r;
+}
+
+void expect_part(const std::string& said, const std::string& part) {
+  EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
+}
+
+/// The case turns with some of the numbers, whatever the gimbals show there.
+TEST(ColumnsRowsOff, AreToldByTheInstrumentThatTurnsWithTheNumbers) {
+  const mc::Study study = test::six_study(1200.0, 10.0);
+  const Recording right = test::simulated(study);
+  for (const std::ptrdiff_t rows : {2, 9, -3}) {
+    const std::string way = rows > 0 ? "late" : "early", move = rows > 0 ? "up" : "down";
+    for (const bool acc : {false, true}) {
+      const ChannelTriple& off = acc ? accelerometer_channels : gimbal_channels;
+      const Recording wrong = moved(right, off, rows);
+      const std::string said = shifted_numbers(wrong, study.plan);
+      expect_part(said, fmt::format("columns {}, {}, {} stand {} rows {}. Move them {} rows {}",
+                                    off.names[0], off.names[1], off.names[2], std::abs(rows), way,
+                                    std::abs(rows), move));
+      expect_part(said, "in 5 of them");
+      EXPECT_EQ(said.find("numbers of the positions change"), std::string::npos) << said;
+      EXPECT_EQ(said, shifted_numbers(wrong)) << "what look says, without a plan";
+      EXPECT_EQ(shifted_numbers(moved(wrong, off, -rows), study.plan), "") << "the advice";
+    }
+  }
+  // Numbers that change so much earlier, and the gimbals beside the accelerometers.
+  const std::string neither =
+      shifted_numbers(shifted(moved(right, gimbal_channels, 5), 2), study.plan);
+  expect_part(neither, "nothing tells which of them turn with the number");
+}
+
+/// Twenty rows of a turn, so many of them before the number changes.
+Recording turning(Recording r, std::size_t before) {
+  constexpr std::size_t way = 20;
+  const std::vector<double> position = r.find("position")->values;
+  for (std::size_t at = 1; at < position.size(); ++at) {
+    if (position[at] == position[at - 1]) continue;
+    const std::size_t from = at - before - 1;
+    for (const ChannelTriple& channels : {accelerometer_channels, gimbal_channels})
+      for (const std::string_view name : channels.names) {
+        std::vector<double>& x = test::channel(r, name);
+        const double begin = x[from], turn = x[from + way + 1] - begin;
+        const bool angle = channels.names == gimbal_channels.names;
+        for (std::size_t k = 1; k <= way; ++k)
+          x[from + k] = begin + (angle ? std::remainder(turn, 2.0 * std::numbers::pi) : turn) *
+                                    static_cast<double>(k) / static_cast<double>(way + 1);
+      }
+  }
+  return r;
+}
+
+/// 90 deg in twenty rows: none of them jumps by as much as a plan may be missed.
+TEST(TurnsInPositions, AreToldWithTheRowsThatTheyTake) {
+  const mc::Study study = test::six_study(1200.0, 10.0);
+  const Recording right = test::simulated(study);
+  const std::string last = "the last rows of 5 positions, up to ",
+                    first = "the first rows of 5 positions, up to ";
+  for (const std::size_t before : {0u, 5u, 20u}) {
+    const Recording wrong = turning(right, before);
+    const std::string said = shifted_numbers(wrong, study.plan);
+    if (before > 0) expect_part(said, last + std::to_string(before) + " (lines");
+    if (before < 20) expect_part(said, first + std::to_string(20 - before) + " (lines");
+    EXPECT_EQ(said.find("last rows") != std::string::npos, before > 0) << said;
+    EXPECT_EQ(said.find("first rows") != std::string::npos, before < 20) << said;
+    expect_part(said, "[recording] ignore = [\"position\"]");
+    EXPECT_EQ(said, shifted_numbers(wrong));
+    EXPECT_THROW(preparation::prepare(study, {wrong}), InputError);
+  }
+}
+
+TEST(TurnsInPositions, AreToldWithTheHeaderThatTheColumnHas) {
+  mc::Study study = test::six_study(1200.0, 10.0);
+  study.recording.columns.push_back({"position", "Label", std::nullopt});
+  try {
+    preparation::prepare(study, {turning(test::simulated(study), 20)});
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    expect_part(error.what(), "ignore = [\"Label\"]");
+  }
+}
+
+/// Plans of every kind, with coarse gimbals, too.
+TEST(ShiftedNumbers, NothingIsSaidOfRowsThatAreRight) {
+  for (const std::string_view preset : preset_names)
+    for (const Entry entry : {Entry::caged, Entry::torqued}) {
+      PlanDefaults defaults;
+      defaults.dwell = 1200.0;
+      defaults.sample = 20.0;
+      defaults.entry = entry;
+      mc::Study study = test::six_study();
+      study.plan = preset_plan(preset, defaults).value();
+      Recording r = test::simulated(study);
+      for (const double step : {0.0, 0.05, 0.5}) {
+        for (const std::string_view name : gimbal_channels.names)
+          if (step > 0.0)
+            for (double& x : test::channel(r, name))
+              x = std::round(x / (step * detail::deg)) * step * detail::deg;
+        EXPECT_EQ(shifted_numbers(r, study.plan), "") << preset << " " << step;
+        EXPECT_EQ(shifted_numbers(r), "") << preset << " " << step;
+      }
+    }
 }
 
 }  // namespace
