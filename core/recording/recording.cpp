@@ -21,6 +21,7 @@
 #include "core/recording/recording_mat.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/recording_read_back.hpp"
+#include "core/recording/rows/shifted_readings.hpp"
 
 namespace drift {
 namespace {
@@ -146,6 +147,7 @@ Recording read_recording(const std::string& path, const RecordingFormat& format,
   }
   Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
   problems.throw_if_any();
+  take_instants(recording, format);
   return recording;
 }
 

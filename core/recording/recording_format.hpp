@@ -32,6 +32,14 @@ enum class SampleKind {
 inline constexpr Named<SampleKind> sample_kinds[] = {{"rates", SampleKind::rates},
                                                      {"increments", SampleKind::increments}};
 
+/// What the accelerometers of a platform's row are.
+enum class AccelerometerReading {
+  mean,       ///< over the interval that ends at its time
+  momentary,  ///< at its time
+};
+inline constexpr Named<AccelerometerReading> accelerometer_readings[] = {
+    {"mean", AccelerometerReading::mean}, {"momentary", AccelerometerReading::momentary}};
+
 /// How numbers stand for angles in degrees.
 enum class AngleDigits {
   automatic,            ///< decimal, unless they look otherwise: then they are refused
@@ -79,6 +87,9 @@ struct RecordingFormat {
   std::optional<double> tick;   ///< one count [s]
   SampleKind kind = SampleKind::rates;
   AngleDigits angles = AngleDigits::automatic;  ///< gimbals and the heading of the case, in deg
+  AccelerometerReading accelerometers = AccelerometerReading::mean;
+  /// By how much older than their row says the readings of a platform are [s].
+  std::optional<double> accelerometers_late, gimbals_late;
 };
 
 }  // namespace drift
