@@ -26,6 +26,7 @@
 #include "core/plan/plan_rows.hpp"
 #include "core/plan/shifted_numbers.hpp"
 #include "core/plan/timeline.hpp"
+#include "core/recording/instants/clock_leap.hpp"
 #include "core/recording/rows/check_time.hpp"
 #include "core/sim/measurements.hpp"
 #include "mc/study/own_terms_check.hpp"
@@ -119,6 +120,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     for (const std::string& text :
          {other_than_one_g(study, r), other_unit_of_time(r), shifted_numbers(r, study.plan)})
       if (!text.empty()) wrong.push_back(text);
+    if (std::string text = clock_leaps_text(r); !text.empty())
+      wrong.push_back(fmt::format("{}: {}", name_of(r), text));
     remark_missing(r, study.readout, p.remarks);
     for (std::string& text : unmapped_temperature_of_terms(study, r))
       wrong.push_back(std::move(text));

@@ -11,6 +11,7 @@
 #include "core/base/check.hpp"
 #include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
+#include "core/recording/instants/shifted_readings.hpp"
 #include "core/recording/line_reader.hpp"
 #include "core/recording/own/columns.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -21,7 +22,6 @@
 #include "core/recording/recording_mat.hpp"
 #include "core/recording/recording_output.hpp"
 #include "core/recording/recording_read_back.hpp"
-#include "core/recording/rows/shifted_readings.hpp"
 
 namespace drift {
 namespace {

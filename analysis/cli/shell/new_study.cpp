@@ -17,6 +17,7 @@
 #include "core/base/words.hpp"
 #include "core/config/load.hpp"
 #include "core/plan/readout_config.hpp"
+#include "core/recording/instants/clock_leap.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -225,6 +226,8 @@ ExitCode make_study(const NewArguments& a) {
     seen = look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
     site = site_of(seen, a.recording);
     if (!on_case && seen.recording) {
+      if (const std::string leap = clock_leaps_text(*seen.recording); !leap.empty())
+        throw InputError(ExitCode::recording, fmt::format("{}: {}", a.recording, leap));
       if (std::string wrong = preparation::other_unit_of_time(*seen.recording); !wrong.empty())
         throw InputError(ExitCode::recording, std::move(wrong));
       plan = recorded_plan(*seen.recording);

@@ -12,7 +12,7 @@
 #include "analysis/report/diagnosis/report.hpp"
 #include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/identify/delay_words.hpp"
-#include "core/recording/rows/shifted_readings.hpp"
+#include "core/recording/instants/shifted_readings.hpp"
 #include "tests/support/six_positions.hpp"
 
 namespace drift::identification::delay_doubt_test {

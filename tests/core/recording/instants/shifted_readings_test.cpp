@@ -1,5 +1,5 @@
 // Readings brought to other instants by the smooth course that they themselves show.
-#include "core/recording/rows/shifted_readings.hpp"
+#include "core/recording/instants/shifted_readings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/recording/rows/shifted_readings.hpp"
+#include "core/recording/instants/shifted_readings.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
