@@ -138,11 +138,14 @@ std::string turned_text(const RecordedPlan& plan) {
     if (!plan.positions[i].turned.axes.empty()) numbers.push_back(fmt::format("{}", i + 1));
   if (numbers.empty()) return "";
   return fmt::format(
-      "Position{} {} {} half way between two directions if the case faced North; if its heading "
-      "was "
-      "45 deg there, write what the comments of the file say. No accelerometer and no gimbal shows "
+      "Position{} {} {} half way between two directions if the case {}; if its heading was "
+      "{:.0f} deg there, write what the comments of the file say. No accelerometer and no gimbal "
+      "shows "
       "which; `driftscope identify` says it if the Earth's rotation does not fit.",
-      numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are");
+      numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are",
+      plan.faces == 0.0 ? "faced North"
+                        : fmt::format("stood at {:.0f} deg", plan.faces / detail::deg),
+      45.0 + plan.faces / detail::deg);
 }
 
 /// Of positions that are longer than a day, by times that nobody gave a unit or a wrong one.
