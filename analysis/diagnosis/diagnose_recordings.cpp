@@ -5,6 +5,7 @@
 
 #include "analysis/diagnosis/advice/advise.hpp"
 #include "analysis/diagnosis/advice/alternatives.hpp"
+#include "analysis/diagnosis/doubts/delay_instead.hpp"
 #include "analysis/diagnosis/doubts/site_doubt.hpp"
 #include "analysis/diagnosis/doubts/unknown_field.hpp"
 #include "analysis/diagnosis/recording_spans.hpp"
@@ -89,9 +90,12 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
     test.study = with_field(std::move(test.study), d.field->field_l);
   name_what_was_read(recordings, test, d.not_examined);
   if (progress) progress("latitude and advice", of_diagnosis);
-  if (!d.of_case)
+  // A delay that leaves nothing is no other study.
+  const auto delay = delay_instead(test.study, test.recordings, recordings, d);
+  const bool delay_alone = delay && delay->delay.alone();
+  if (!d.of_case && !delay_alone)
     d.heading_doubt = identification::heading_doubt(test.study, test.recordings, d.nominal);
-  if (!d.heading_doubt) {
+  if (!d.heading_doubt && !delay_alone) {
     SiteFinding site = site_doubt(test.study, test.recordings, d, second);
     // What mends a part of a misfit that has another cause is no latitude.
     if (site.doubt && !site.doubt->alone() && !test.off_zero.empty()) site = {};
@@ -101,6 +105,8 @@ Diagnosis diagnose_recordings(const mc::Study& study, const std::vector<Recordin
   }
   if (d.wrong_study())
     d = of_another_study(std::move(d));
+  else if (delay)
+    d = with_delay(std::move(d), *delay);
   else if (const auto times = times_instead(test.study, test.recordings, d))
     d.remarks.emplace_back(*times);
   d.absent_positions = test.absent_positions;

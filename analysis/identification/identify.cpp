@@ -144,8 +144,11 @@ void estimate_all(const mc::Study& study, const MeasuredTest& test, Identificati
 
 /// Where no filter fits, or fits with parameters that no prior of its has, headings or the latitude
 /// may be behind it: most of a wrong one is drift that follows the attitude.
+///
+/// Before those, accelerometers and gimbals of different instants, where the first filter does not
+/// fit: one that leaves nothing then is no other study. recorded: as they were read.
 void doubt_study(const mc::Study& study, const std::vector<Recording>& recordings,
-                 Identification& id) {
+                 const std::vector<Recording>& recorded, Identification& id) {
   const auto result = [&](const FilterSummary& s) -> const EstimateResult& {
     return judged(study.filters[s.filter], id.counted(s));
   };
@@ -154,6 +157,10 @@ void doubt_study(const mc::Study& study, const std::vector<Recording>& recording
     return !misfit(result(s)) && beyond_prior(result(s)).empty();
   };
   if (std::ranges::any_of(id.summaries, fits)) return;
+  const FilterSummary& first = id.summaries.front();
+  if (const auto test = dwells_alone(study, recordings); test && misfit(result(first)))
+    id.delay = delay_of_misfit(*test, study.filters[first.filter], usual_interval(recorded));
+  if (id.delay && id.delay->alone()) return;
   for (FilterSummary& s : id.summaries) {
     const FilterSpec& filter = study.filters[s.filter];
     s.heading_doubt = heading_doubt(study, recordings, filter);
@@ -271,7 +278,7 @@ Identification identify_recordings(const mc::Study& study, const std::vector<Rec
                              id.counted(id.summaries.front()).batch)
                   .spikes;
   id.absent = absent_channels(ready.recordings, ready.study.readout);
-  if (late_labels(id.spikes) == 0) doubt_study(ready.study, ready.recordings, id);
+  if (late_labels(id.spikes) == 0) doubt_study(ready.study, ready.recordings, recordings, id);
   return id;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/identification/delay_doubt.hpp"
 #include "analysis/identification/heading_doubt.hpp"
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/identification/memory_doubt.hpp"
@@ -73,6 +74,7 @@ struct Identification {
   std::vector<std::string> sources;
   std::vector<std::string> names;    ///< how each of several recordings is called; empty of one
   std::vector<std::string> remarks;  ///< what was left out or changed (prepare())
+  std::optional<DelayDoubt> delay;   ///< of accelerometers against gimbals, behind a misfit
   std::string off_zero;              ///< a gimbal that reads a constant too much (prepare()); or ""
   std::vector<int> absent_positions;  ///< of the plan, in no recording (prepare())
   std::vector<std::string> absent;    ///< channels of [readout] that no recording measured

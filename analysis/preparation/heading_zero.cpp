@@ -1,6 +1,7 @@
 #include "analysis/preparation/heading_zero.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "analysis/preparation/input_thresholds.hpp"
 #include "core/physics/gimbals.hpp"
+#include "core/plan/case_heading.hpp"
 #include "core/plan/timeline.hpp"
 #include "core/recording/recording_channels.hpp"
 
@@ -58,10 +60,17 @@ std::vector<Caged> caged_in(const Recording& recording, const Timeline& timeline
   return all;
 }
 
+/// "0 deg, 0 deg, 45 deg": the headings of the plan's dwells, all of them so much further.
+std::string headings_text(const mc::Study& study, double further) {
+  std::vector<std::string> all;
+  for (const Passage& p : plan_passages(study.plan, study.site))
+    all.push_back(fmt::format("{:.4g}", (p.dwell.heading1 + further) / detail::deg));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
 }  // namespace
 
 std::string heading_off_zero(const mc::Study& study, const Recording& recording) {
-  if (recording.find("case_heading") == nullptr) return "";
   double caging = 0.0;  // 1 sigma
   for (const FilterSpec& filter : study.filters) caging = std::max(caging, filter.initial_attitude);
   const std::vector<Caged> all =
@@ -74,6 +83,16 @@ std::string heading_off_zero(const mc::Study& study, const Recording& recording)
     return std::abs(zero) > c.room && (c.turn_l - zero * Vec3::UnitZ()).norm() < c.room;
   });
   if (!same) return "";
+  if (recording.find("case_heading") == nullptr)
+    return fmt::format(
+        "{}: the case stood {:.3g} deg off the heading that the plan has, {} North over West, as "
+        "the "
+        "gimbals show in {} caged position{}: with that put right they have the attitude of the "
+        "plan. Write case_heading for each [[plan.position]] ({} deg), those of a preset written "
+        "out first, or record a column case_heading",
+        recording.source.empty() ? "the recording" : recording.source, std::abs(zero) / detail::deg,
+        zero < 0.0 ? "further from" : "less far from", all.size(), all.size() == 1 ? "" : "s",
+        headings_text(study, -zero));
   const bool inner = std::ranges::all_of(all, &Caged::inner);
   return fmt::format(
       "{}:case_heading: it reads {:.3g} deg too {}, as the gimbals show in {} caged position{}: "

@@ -7,8 +7,8 @@
 
 namespace drift::preparation {
 
-/// Whether the recorded heading of the case is off by a constant, and what to write; empty where it
-/// is not, or is not recorded.
+/// Whether the heading of the case, recorded or, without a column of it, that of the plan, is off
+/// by a constant, and what to write; empty where it is not.
 ///
 /// Where the platform has just been caged, gimbals and heading together show the attitude of the
 /// plan. If they are turned from it about Up, by the same angle in every caged position, it is the

@@ -27,6 +27,7 @@
 #include "core/plan/plan_rows.hpp"
 #include "core/plan/shifted_numbers.hpp"
 #include "core/plan/timeline.hpp"
+#include "core/recording/instants/clock_leap.hpp"
 #include "core/recording/rows/check_time.hpp"
 #include "core/recording/rows/row_spacing.hpp"
 #include "core/sim/measurements.hpp"
@@ -133,6 +134,8 @@ Prepared prepare(const mc::Study& study, const std::vector<Recording>& recording
     for (const std::string& text : {other_than_one_g(study, r), other_unit_of_time(r),
                                     in_own_names(shifted_numbers(r, study.plan), study.recording)})
       if (!text.empty()) wrong.push_back(text);
+    if (std::string text = clock_leaps_text(r); !text.empty())
+      wrong.push_back(fmt::format("{}: {}", name_of(r), text));
     remark_missing(r, study.readout, p.remarks);
     for (std::string& text : unmapped_temperature_of_terms(study, r))
       wrong.push_back(std::move(text));

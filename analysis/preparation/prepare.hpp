@@ -28,14 +28,15 @@ struct Prepared {
 /// require_own_terms()); none at all, and those that were made otherwise than files are read
 /// (InputError, recording: require_recordings()). Refused then, all mistakes at once: positions
 /// that the plan does not have or whose attitude is not the plan's, times in another unit
-/// (other_unit_of_time()), gaps in which the command changed and the gimbals do not tell when
-/// (with_begins()), nothing measured, without recorded commands a platform that moves by another
-/// law than the plan's (check_plan()); evenly spaced rows farther apart than the plan's samples or
-/// not a whole part of them, whatever the rows of other recordings are (take_rows()). Remarked
-/// only: positions of the plan that no recording holds, one position (nothing can be held out),
-/// channels absent or empty, bursts of missing samples, missing rows, dwells and commands that are
-/// not the plan's. Left out and remarked: a channel, or a stretch of it, that stands at one and the
-/// same value for at least 20 samples and 20 times as long as it usually does: a stuck sensor. And,
+/// (other_unit_of_time()), a clock that leapt within a position (clock_leaps_text()), gaps in which
+/// the command changed and the gimbals do not tell when (with_begins()), nothing measured, without
+/// recorded commands a platform that moves by another law than the plan's (check_plan()); evenly
+/// spaced rows farther apart than the plan's samples or not a whole part of them, whatever the rows
+/// of other recordings are (take_rows()). Remarked only: positions of the plan that no recording
+/// holds, one position (nothing can be held out), channels absent or empty, bursts of missing
+/// samples, missing rows, dwells and commands that are not the plan's. Left out and remarked: a
+/// channel, or a stretch of it, that stands at one and the same value for at least 20 samples and
+/// 20 times as long as it usually does: a stuck sensor. And,
 /// of rows that are joined, single readings far from those around (raw_spikes()). Such samples
 /// become NaN.
 ///

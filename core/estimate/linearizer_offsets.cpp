@@ -80,6 +80,11 @@ GimbalPrediction Linearizer::gimbals(const Timeline& timeline, const NodePoint& 
   if (!offsets_.any() && !resolvers_.any()) return predict_gimbals(node, interval.heading1, phi);
   const Mat3 R_lp = node.R_lr * rotation(phi);
   look(point, R_lp, &timeline);
+  if (needs_.own_rate) {
+    around_still_.memory = seen_.memory;
+    around_still_.omega_drift_p = around_at_psi_.omega_drift_p = drift_rate(
+        model_, seen_.still, theta_.data(), misalignment_matrix(model_.mounting, interval.loop));
+  }
   GimbalAssembly<D3> sum;
   resolvers_.add_to(seen_, sum);
   const Vec3D delta_p = offset();

@@ -14,14 +14,16 @@ struct Needs {
   bool gimbals = false;   ///< gimbal angles
   bool memory = false;    ///< states that the past has left; set for terms that declare `memory`
   bool turning = false;   ///< how a case turns while its accelerometers are read
+  bool own_rate = false;  ///< of a hook of the gimbals: how the platform turns of itself
   CovariateSet covariates = 0;  ///< what it follows beside the motion; of a vector also R_lp
 
   constexpr bool any() const {
-    return clock || attitude || gimbals || memory || turning || covariates != 0;
+    return clock || attitude || gimbals || memory || turning || own_rate || covariates != 0;
   }
   constexpr Needs operator|(const Needs& o) const {
-    return {clock || o.clock,   attitude || o.attitude, gimbals || o.gimbals,
-            memory || o.memory, turning || o.turning,   covariates | o.covariates};
+    return {clock || o.clock,         attitude || o.attitude, gimbals || o.gimbals,
+            memory || o.memory,       turning || o.turning,   own_rate || o.own_rate,
+            covariates | o.covariates};
   }
 };
 
@@ -55,6 +57,10 @@ struct Surroundings {
   Mat3T<S> R_lp;              ///< attitude, v_l = R_lp v_p
   Vec3T<S> gimbal;            ///< outer, middle, inner [rad]
   const S* memory = nullptr;  ///< of all terms of the library
+  /// By what the platform turns otherwise than it is told, as the model's own rates have it; zero
+  /// but where gimbals are read. No derivative of it is taken: what it multiplies is far shorter
+  /// than the time over which the same rates turn the platform [rad/s].
+  Vec3 omega_drift_p = Vec3::Zero();
 };
 
 /// What a term may see: the platform at one instant. Platform axes throughout.
@@ -82,6 +88,12 @@ struct Inputs {
   Vec3T<S> omega_cp_p() const {
     Vec3T<S> w;
     for (int i = 0; i < 3; ++i) w[i] = omega_cmd_p[i] - omega_ic_p[i];
+    return w;
+  }
+  /// The same with what drift makes of it, where a term needs its own rate [rad/s].
+  Vec3T<S> omega_cp_p_with_drift() const {
+    Vec3T<S> w = omega_cp_p();
+    for (int i = 0; i < 3; ++i) w[i] += around->omega_drift_p[i];
     return w;
   }
   /// A vector given in local axes, in platform axes.

@@ -86,6 +86,12 @@ Vec3T<S> platform_rate(const DriftModel& model, const Inputs<S>& in, const S* th
   return rate_of_slots(model.coupling, assemble(model, in, theta), in.omega_ic_p, E_loop);
 }
 
+/// By what the platform turns otherwise than it is told [rad/s].
+inline Vec3 drift_rate(const DriftModel& model, const Inputs<double>& in, const double* theta,
+                       const Mat3& E_loop) {
+  return platform_rate(model, in, theta, E_loop) - in.omega_cmd_p;
+}
+
 /// The same as accelerometer_output, for models with terms beyond the first ones.
 template <class S>
 [[gnu::noinline]] Vec3T<S> offset_accelerometer_output(const DriftModel& model, const Inputs<S>& in,

@@ -207,6 +207,7 @@ class SlotDerivatives {
       around.now = seen.still.around->now;
       around.R_lp = seen.still.around->R_lp.template cast<D>();
       around.gimbal = seen.still.around->gimbal.template cast<D>();
+      around.omega_drift_p = seen.still.around->omega_drift_p;
       in.around = &around;
     }
     typename Hook::template Assembly<D> there;

@@ -11,6 +11,7 @@
 #include "core/base/check.hpp"
 #include "core/base/seal.hpp"
 #include "core/base/sha256.hpp"
+#include "core/recording/instants/shifted_readings.hpp"
 #include "core/recording/line_reader.hpp"
 #include "core/recording/own/columns.hpp"
 #include "core/recording/recording_channels.hpp"
@@ -146,6 +147,7 @@ Recording read_recording(const std::string& path, const RecordingFormat& format,
   }
   Recording recording = checked_recording(std::move(raw), kind, gravity, problems);
   problems.throw_if_any();
+  take_instants(recording, format);
   return recording;
 }
 

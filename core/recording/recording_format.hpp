@@ -34,6 +34,14 @@ inline constexpr Named<SampleKind> sample_kinds[] = {{"rates", SampleKind::rates
                                                      {"mean_rates", SampleKind::mean_rates},
                                                      {"increments", SampleKind::increments}};
 
+/// What the accelerometers of a platform's row are.
+enum class AccelerometerReading {
+  mean,       ///< over the interval that ends at its time
+  momentary,  ///< at its time
+};
+inline constexpr Named<AccelerometerReading> accelerometer_readings[] = {
+    {"mean", AccelerometerReading::mean}, {"momentary", AccelerometerReading::momentary}};
+
 /// How numbers stand for angles in degrees.
 enum class AngleDigits {
   automatic,            ///< decimal, unless they look otherwise: then they are refused
@@ -81,6 +89,9 @@ struct RecordingFormat {
   std::optional<double> tick;   ///< one count [s]
   SampleKind kind = SampleKind::rates;
   AngleDigits angles = AngleDigits::automatic;  ///< gimbals and the heading of the case, in deg
+  AccelerometerReading accelerometers = AccelerometerReading::mean;
+  /// By how much older than their row says the readings of a platform are [s].
+  std::optional<double> accelerometers_late, gimbals_late;
 };
 
 }  // namespace drift

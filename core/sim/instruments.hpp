@@ -29,6 +29,9 @@ struct Instruments {
     Scene<double> scene(node.omega_ic_l, interval.omega_cmd_p, model->mounting, R_lp);
     if (needs.any())
       scene.look_around(needs, moment_at(*timeline, interval, node.t), R_lp, memory(last));
+    if (needs.own_rate)
+      scene.around.omega_drift_p =
+          drift_rate(*model, scene.in, theta, misalignment_matrix(model->mounting, interval.loop));
     return gimbal_output<double>(*model, scene.in, R_lp, interval.heading1, theta);
   }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/cli/command.hpp"
 #include "analysis/cli/print.hpp"
+#include "analysis/identification/delay_doubt.hpp"
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/held_rows.hpp"
 #include "analysis/preparation/rows/raw_spikes.hpp"
@@ -109,6 +110,23 @@ void show_scatter(const Recording& r, const std::vector<preparation::RestingRows
          fmt::join(said, ", "));
 }
 
+/// What the accelerometers of a row are taken for: another thing than many a log has.
+void show_means(const Recording& r) {
+  const double interval = identification::usual_interval({r});
+  if (r.find("acc_x") == nullptr || !(interval > 0.0)) return;
+  const double half = 0.5 * interval;
+  show(
+      "\n{}\n",
+      report::wrapped(
+          fmt::format(
+              "acc_* are taken as means over the {} s that end at the time of their row. Momentary "
+              "readings are {} s later: on a platform that the Earth's rate turns they are up to "
+              "{} ug off. If they are that, write accelerometers = \"momentary\" in [recording]",
+              number_text(interval, 3), number_text(half, 3),
+              number_text(detail::earth_rate * half / 1e-6, 2)),
+          98));
+}
+
 /// The recording as a whole, of a plan where one is known; the noise that its rests show comes
 /// back.
 preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, double static_min,
@@ -125,6 +143,7 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     card = strapdown::noise_of(r, search);
   } else {
     show_positions(r);
+    show_means(r);
     for (const std::string& wrong : {preparation::other_unit_of_time(r),
                                      plan ? shifted_numbers(r, *plan) : shifted_numbers(r)})
       if (!wrong.empty()) show("\n{}\n", report::wrapped(wrong, 98));

@@ -17,6 +17,7 @@
 #include "core/base/words.hpp"
 #include "core/config/load.hpp"
 #include "core/plan/readout_config.hpp"
+#include "core/recording/instants/clock_leap.hpp"
 #include "core/recording/own/guess.hpp"
 #include "core/recording/own/preamble.hpp"
 #include "core/recording/recording_problems.hpp"
@@ -137,11 +138,14 @@ std::string turned_text(const RecordedPlan& plan) {
     if (!plan.positions[i].turned.axes.empty()) numbers.push_back(fmt::format("{}", i + 1));
   if (numbers.empty()) return "";
   return fmt::format(
-      "Position{} {} {} half way between two directions if the case faced North; if its heading "
-      "was "
-      "45 deg there, write what the comments of the file say. No accelerometer and no gimbal shows "
+      "Position{} {} {} half way between two directions if the case {}; if its heading was "
+      "{:.0f} deg there, write what the comments of the file say. No accelerometer and no gimbal "
+      "shows "
       "which; `driftscope identify` says it if the Earth's rotation does not fit.",
-      numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are");
+      numbers.size() == 1 ? "" : "s", listed(numbers, "and"), numbers.size() == 1 ? "is" : "are",
+      plan.faces == 0.0 ? "faced North"
+                        : fmt::format("stood at {:.0f} deg", plan.faces / detail::deg),
+      45.0 + plan.faces / detail::deg);
 }
 
 /// Of positions that are longer than a day, by times that nobody gave a unit or a wrong one.
@@ -225,6 +229,8 @@ ExitCode make_study(const NewArguments& a) {
     seen = look_at(a.recording, on_case ? RecordingKind::strapdown : RecordingKind::platform);
     site = site_of(seen, a.recording);
     if (!on_case && seen.recording) {
+      if (const std::string leap = clock_leaps_text(*seen.recording); !leap.empty())
+        throw InputError(ExitCode::recording, fmt::format("{}: {}", a.recording, leap));
       if (std::string wrong = preparation::other_unit_of_time(*seen.recording); !wrong.empty())
         throw InputError(ExitCode::recording, std::move(wrong));
       plan = recorded_plan(*seen.recording);

@@ -142,6 +142,32 @@ std::size_t row_of_heading(const std::vector<double>& heading, std::size_t first
   return row;
 }
 
+/// The heading of a case that stands alike in all positions, which are three or more: that by which
+/// the level axes of all stand away from one of eight directions, as one wants a platform caged. 0
+/// where they do not agree to a degree, the step in which headings are written, or where it is
+/// none.
+double common_heading(const Recording& r, const std::vector<PositionRows>& rows,
+                      const RowSpacing& spacing) {
+  constexpr double step = 1.0 * detail::deg, eighth = 45.0 * detail::deg;
+  std::vector<double> off;
+  for (const auto& [first, end, dwell] : rows) {
+    if (dwell > first) return 0.0;  // slewed to: attitudes are carried along
+    const std::size_t shows = row_of_attitude(r, dwell, end);
+    const auto there = seen_at(r, shows, end, spacing.usual[shows]);
+    if (!there) return 0.0;
+    int level = 0;
+    there->R_lp.row(2).cwiseAbs().minCoeff(&level);
+    off.push_back(std::atan2(there->R_lp(1, level), there->R_lp(0, level)));
+  }
+  if (off.size() < 3) return 0.0;
+  double mean = 0.0;
+  for (const double x : off) mean += std::remainder(x - off.front(), eighth);
+  mean = std::remainder(off.front() + mean / static_cast<double>(off.size()), eighth);
+  const bool alike = std::ranges::all_of(
+      off, [&](double x) { return std::abs(std::remainder(x - mean, eighth)) < step; });
+  return alike && std::abs(mean) > step ? -std::round(mean / step) * step : 0.0;
+}
+
 }  // namespace
 
 RecordedPlan recorded_plan(const Recording& r) {
@@ -152,6 +178,7 @@ RecordedPlan recorded_plan(const Recording& r) {
   const RowSpacing spacing = row_spacing(r);
   plan.sample = as_written(sample_of_most(rows, spacing));
   plan.headings = heading != nullptr;
+  if (!heading) plan.faces = common_heading(r, rows, spacing);
   std::vector<TwoUps> seen;
   std::vector<std::string> ups;
   Mat3 drifted = Mat3::Identity();  // the position before, against its nominal attitude; local axes
@@ -164,6 +191,7 @@ RecordedPlan recorded_plan(const Recording& r) {
     const double sample = p.sample.value_or(plan.sample);
     p.length = in_whole_samples(time->values[end - 1] - time->values[dwell] + sample, sample);
     if (heading) p.heading = heading->values[row_of_heading(heading->values, dwell, end)];
+    if (plan.faces != 0.0) p.heading = plan.faces;
     const std::size_t row = std::min(shows + 2, end - 1);  // the first may be of the turn
     const auto force = measured(r, accelerometer_channels, row),
                angles = measured(r, gimbal_channels, row);
@@ -180,7 +208,7 @@ RecordedPlan recorded_plan(const Recording& r) {
       drifted = case_attitude(p.heading.value_or(0.0)) * there->R_lp * shown->R_lp.transpose();
     if (!shown) p.heading.reset();  // axes that are guessed may not be reached from it
     plan.north = plan.north && shown;
-    const auto turned = in_case(45.0 * detail::deg);
+    const auto turned = in_case(plan.faces + 45.0 * detail::deg);
     if (!heading && shown && turned->plainer_than(*shown)) p.turned = *turned;
     p.attitude = shown ? *shown : planning::ShownAttitude{axes_of(mean_force(r, dwell, end))};
     if (force && angles) {

@@ -17,13 +17,17 @@ struct RecordedPlan {
     bool torqued = false;                ///< slewed to, as the phases say
     bool level = false;                  ///< Earth rate is commanded in the dwell
     std::optional<double> heading{};     ///< of the case [rad], where it is recorded
-    planning::ShownAttitude turned{};    ///< if the case was at 45 deg; without axes: less likely
-    std::optional<double> sample{};      ///< of its own [s], where it is not that of the plan
+    /// If the case was 45 deg further; without axes: less likely.
+    planning::ShownAttitude turned{};
+    std::optional<double> sample{};  ///< of its own [s], where it is not that of the plan
   };
-  double sample = 0.0;          ///< of most rows of the dwells [s]
-  bool level = false;           ///< Earth rate is commanded in most dwells
-  bool north = false;           ///< the axes that lie level are from gimbal angles
-  bool headings = false;        ///< and the headings of the case are recorded; else it faces North
+  double sample = 0.0;    ///< of most rows of the dwells [s]
+  bool level = false;     ///< Earth rate is commanded in most dwells
+  bool north = false;     ///< the axes that lie level are from gimbal angles
+  bool headings = false;  ///< and the headings of the case are recorded; else it faces North
+  /// Heading of a case whose headings are not recorded [rad]: what brings the gimbals of all
+  /// positions to plain axes, to the nearest of eight directions.
+  double faces = 0.0;
   bool to_come = false;         ///< the recording could not be read yet: the positions hold a place
   std::string noise{};          ///< accelerometer_noise of [readout] as its rests show it; or empty
   std::string gimbal_noise{};   ///< the same of the gimbals

@@ -44,8 +44,9 @@ std::string position_text(const RecordedPlan& plan, std::size_t number, Dwells d
   if (p.heading)
     text += fmt::format("case_heading = \"{:.0f} deg\"\n", std::round(*p.heading / detail::deg));
   if (!p.turned.axes.empty())
-    text += fmt::format("# or, of a case at 45 deg: {} and case_heading = \"45 deg\"\n",
-                        planning::attitude_keys(p.turned, " ", ", "));
+    text +=
+        fmt::format("# or, of a case at {0:.0f} deg: {1} and case_heading = \"{0:.0f} deg\"\n",
+                    45.0 + plan.faces / detail::deg, planning::attitude_keys(p.turned, " ", ", "));
   if (dwells == Dwells::alike) return text;
   text += fmt::format("dwell = \"{:.12g} s\"\n", p.length);
   if (p.sample) text += fmt::format("sample = \"{:.9g} s\"\n", *p.sample);
@@ -70,8 +71,13 @@ std::string plan_text(const std::optional<RecordedPlan>& plan, Dwells dwells) {
               ? "# As many positions as the recording names; it is to say what they are.\n"
           : plan->north
               ? (plan->headings
-                     ? "# The axes are those that the gimbal angles show, with the recorded "
-                       "headings of the case.\n"
+                     ? std::string("# The axes are those that the gimbal angles show, with the "
+                                   "recorded headings of the case.\n")
+                 : plan->faces != 0.0
+                     ? fmt::format("# The axes are those that the gimbal angles show of a case at "
+                                   "{:.0f} deg, by which all of them\n# stand away from plain axes "
+                                   "at a case that faces North; no instrument shows it.\n",
+                                   plan->faces / detail::deg)
                      : "# The axes are those that the gimbal angles show of a case that faces "
                        "North.\n")
               : "# What is up is of the recording.\n# N, S, E, W of the axes below, which no "

@@ -10,6 +10,7 @@
 
 #include "analysis/identification/clock_doubt.hpp"
 #include "analysis/identification/common_scale.hpp"
+#include "analysis/identification/delay_doubt.hpp"
 #include "analysis/identification/memory_doubt.hpp"
 #include "analysis/identification/spikes.hpp"
 #include "analysis/identification/stated_loop.hpp"
@@ -145,6 +146,12 @@ struct TimesInstead {
   /// Of such times, in one recording of 1000, against the causes that were found.
   double odds = std::numeric_limits<double>::infinity();
 };
+/// Accelerometers and gimbals of different instants explain the test without any of what was found.
+struct DelayInstead {
+  identification::DelayDoubt delay;
+  /// Of that, in one recording of 1000, against the causes that were found; infinite without any.
+  double odds = std::numeric_limits<double>::infinity();
+};
 /// The magnetic field is that of a dipole: none was recorded or declared.
 struct FieldAssumed {
   Vec3 field_l = Vec3::Zero();  ///< [T]
@@ -172,15 +179,14 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark =
-    std::variant<remark::Input, remark::GimbalOffZero, remark::LoopLeftOut,
-                 remark::JustSignificantLeft, remark::LambdaNotSettled, remark::MemberNotConfirmed,
-                 remark::NotPredicted, remark::OrNoise, remark::LikelierMissing,
-                 remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains,
-                 remark::LeftNotWhite, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
-                 remark::StrongestLeft, remark::BeyondPrior, remark::OtherPriors,
-                 remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
-                 remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-                 remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark = std::variant<
+    remark::Input, remark::GimbalOffZero, remark::LoopLeftOut, remark::JustSignificantLeft,
+    remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
+    remark::LikelierMissing, remark::SamplesLeftOut, remark::FreeInputExplains,
+    remark::PeriodExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
+    remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior, remark::OtherPriors,
+    remark::OtherEquation, remark::MemoryOff, remark::TimesInstead, remark::DelayInstead,
+    remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
+    remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -10,6 +10,7 @@
 #include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/diagnosis/words/too_large.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/delay_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
@@ -134,6 +135,9 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
                                        priors, several ? "they are" : "it is"),
         !d.causes.empty() ? several ? "them" : "it" : priors, several ? "them" : "it");
   }
+  if (const auto* delay = remark_in<remark::DelayInstead>(d);
+      delay != nullptr && d.verdict != Verdict::named)
+    return delay_next(delay->delay, "diagnose");
   if (off_zero && d.verdict != Verdict::consistent)
     return "Next: correct the zero, or its offset, and diagnose again.";
   if (const std::string own = own_not_examined_next(d.not_examined, d.where.recordings);

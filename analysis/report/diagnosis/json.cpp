@@ -256,6 +256,7 @@ Json diagnosis_document(const Diagnosis& d) {
   const auto* times = remark_in<remark::TimesInstead>(d);
   out["or_times"] = times_json(times != nullptr ? std::optional(times->clock) : std::nullopt);
   if (times != nullptr) out["or_times"]["odds"] = times->odds;
+  out["instants"] = instants_json(d);
   out["heading"] = d.heading_doubt ? heading_json(*d.heading_doubt) : Json(nullptr);
   out["field"] = field_json(d);
   out["absent"] = absent_json(d.absent);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/identify/delay_words.hpp"
 #include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/page/wording.hpp"
 
@@ -25,6 +26,7 @@ std::vector<InputDoubt> input_doubts(const mc::Study& study,
                                      const identification::Identification& id, bool fits) {
   std::vector<InputDoubt> doubts;
   if (!id.off_zero.empty()) doubts.push_back({Weight::wrong, "Gimbals", id.off_zero + "."});
+  if (id.delay) doubts.push_back({Weight::wrong, "Instants", delay_text(*id.delay)});
   add_loop(study, id, doubts);
   const std::size_t count = id.spikes.size();
   if (std::string labels = late_labels_text(id.spikes, id.names); !labels.empty())

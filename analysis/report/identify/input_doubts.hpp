@@ -17,8 +17,8 @@ struct InputDoubt {
   std::string text;
 };
 
-/// Of a gimbal's zero, a loop that filters leave out, numbers of positions that are late or
-/// isolated samples. fits: some filter does.
+/// Of a gimbal's zero, instruments of different instants, a loop that filters leave out, numbers of
+/// positions that are late or isolated samples. fits: some filter does.
 std::vector<InputDoubt> input_doubts(const mc::Study& study,
                                      const identification::Identification& id, bool fits);
 

@@ -3,6 +3,7 @@
 
 #include "analysis/identification/filter_odds.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/delay_words.hpp"
 #include "analysis/report/identify/input_doubts.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/results_out.hpp"
@@ -120,6 +121,7 @@ Json identification_document(const mc::Study& study, const identification::Ident
   out["absent_positions"] = id.absent_positions;
   out["absent_channels"] = id.absent;  // of [readout]; the estimates are without them
   add_input(out, id.off_zero, id.spikes);
+  out["instants"] = delay_json(id.delay);
   Json& remarks = out["remarks"] = Json::array();
   for (const InputDoubt& doubt : input_doubts(study, id, true)) remarks.push_back(doubt.text);
   for (const std::string& text : id.remarks) remarks.push_back(text);

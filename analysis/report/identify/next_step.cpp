@@ -2,6 +2,7 @@
 
 #include "analysis/identification/absent_channels.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/delay_words.hpp"
 #include "analysis/report/identify/judgement.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/loop_words.hpp"
@@ -48,6 +49,7 @@ std::string next_step(const mc::Study& study, const identification::Identificati
         return id.leaves_out_loop(filter);
       }))
     return loop_next(*id.loop, study.filters.front(), 0, "identify");
+  if (id.delay) return delay_next(*id.delay, "identify");
   if (const auto* headings = other_headings(id)) return corrected_text(*headings, "identify");
   if (const auto doubt = other_latitude(id); doubt && (doubt->clock || doubt->alone()))
     return doubt->clock ? clock_next(*doubt->clock, "identify") : latitude_next(*doubt, "identify");

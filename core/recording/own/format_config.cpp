@@ -207,6 +207,22 @@ void check_time(Section& section, const RecordingFormat& format) {
           "is given together with a column of time (expected one of them). Remove one");
 }
 
+/// Of a case it is the gyros that turn the platform, row by row: shifts are a platform's alone.
+void check_instants(Section& section, RecordingKind kind, const RecordingFormat& format) {
+  if (kind == RecordingKind::platform) return;
+  const auto refuse = [&](std::string_view key) {
+    section.report().error(
+        section.take(key)->at,
+        fmt::format("'{}' is of a platform's recording (expected none for "
+                    "sensors fixed to a case: their accelerometers are means, "
+                    "and the term accelerometer_delay is their delay). Remove it",
+                    section.full(key)));
+  };
+  if (format.accelerometers == AccelerometerReading::momentary) refuse("accelerometers");
+  if (format.accelerometers_late) refuse("accelerometers_late");
+  if (format.gimbals_late) refuse("gimbals_late");
+}
+
 }  // namespace
 
 RecordingFormat read_recording_format(Section section, RecordingKind kind,
@@ -235,6 +251,9 @@ RecordingFormat read_recording_format(Section section, RecordingKind kind,
                              fmt::format("'{}' = \"{}\" is for sensors fixed to a case "
                                          "(expected \"rates\" for a platform). Remove it",
                                          section.full("kind"), name_in(sample_kinds, format.kind)));
+    section.read(Option{.key = "accelerometers", .doc = "what those of a platform's row are"},
+                 format.accelerometers, accelerometer_readings);
+    check_instants(section, kind, format);
     if (format.decimal == DecimalMark::comma && format.delimiter == Delimiter::comma)
       section.report().error(section.take("decimal")->at,
                              fmt::format("'{}' and '{}' are both a comma (expected two marks). "

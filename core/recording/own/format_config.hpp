@@ -20,6 +20,13 @@ void visit_options(RecordingFormat& o, Field&& field) {
   field(Option{.key = "wrap", .min = 2.0, .max = 1e19, .doc = "the counter begins again there"},
         o.wrap);
   field(Option{"tick", unit::s, 1e-12, 1e5, "one count of the counter"}, o.tick);
+  constexpr double latest = 600.0;  // [s]
+  field(Option{"accelerometers_late", unit::s, -latest, latest,
+               "they read what was so long before their row says"},
+        o.accelerometers_late);
+  field(Option{"gimbals_late", unit::s, -latest, latest,
+               "they read what was so long before their row says"},
+        o.gimbals_late);
 }
 
 /// Reads [recording]. `positions` are the names of the plan's positions: a text in the column

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/words.hpp"
+#include "core/recording/instants/clock_leap.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/recording/recording_problems.hpp"
 #include "core/recording/rows/reading_step.hpp"
@@ -27,6 +28,9 @@ void look_at_time(const Recording& r, QualityCard& card) {
   card.start = t.front();
   card.span = t.back() - t.front();
   const RowSpacing spacing = row_spacing(r);
+  const std::vector<ClockLeap> leaps = clock_leaps(r, spacing);
+  if (std::string text = clock_leaps_text(r, leaps); !text.empty())
+    card.remarks.add(Weight::wrong, std::move(text));
   std::vector<double> within;
   card.positions = position ? 1 : 0;
   std::size_t begin = 0, told = 0;  // row and gap with which this position begins
@@ -41,7 +45,8 @@ void look_at_time(const Recording& r, QualityCard& card) {
       begin = row;
     }
     if (!other) within.push_back(spacing.step[row]);
-    if (!spacing.gap(row)) continue;
+    if (!spacing.gap(row) || std::ranges::find(leaps, row, &ClockLeap::row) != leaps.end())
+      continue;
     (other ? card.between : card.gaps).push_back({r.lines[row], t[row - 1], spacing.step[row]});
     if (!other) card.lost += spacing.missing(row);
   }

@@ -79,6 +79,8 @@ Direct direct(const Point& p, const DriftModel& model, const Theta& theta,
   seen.look_around(TermLibrary::needs(model.terms), moment_at(p.timeline, p.at(), p.node().t),
                    out.R_lp, m.data());
   out.omega_ip_p = platform_rate(model, seen.in, t.data(), p.E_loop);
+  for (int i = 0; i < 3; ++i)
+    seen.around.omega_drift_p[i] = out.omega_ip_p[i].v - p.at().omega_cmd_p[i];
   out.acc = accelerometer_output(model, seen.in, t.data());
   out.gimbal = gimbal_output<D>(model, seen.in, out.R_lp, p.at().heading1, t.data());
   return out;

@@ -12,6 +12,7 @@
 #include "analysis/report/diagnosis/words/verdict_openings.hpp"
 #include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/delay_words.hpp"
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/identify/turned_words.hpp"
 #include "analysis/report/page/wording.hpp"
@@ -205,6 +206,28 @@ const remark::TimesInstead* times_beside_cause(const Diagnosis& d) {
   if (d.verdict != Verdict::ambiguous || for_others || alternatives_of(d).size() != 1)
     return nullptr;
   return remark_in<remark::TimesInstead>(d);
+}
+
+std::string input_instead_text(const Diagnosis& d) {
+  if (const auto* delay = remark_in<remark::DelayInstead>(d))
+    return fmt::format(
+        "accelerometers and gimbals of different instants leave as little{}",
+        delay->odds > inference::RemarkLimits::decided ? " and are far likelier" : "");
+  const auto* times = times_beside_cause(d);
+  return times != nullptr ? times_as_little_text(times->clock, times->odds) : "";
+}
+
+std::string instants_text(const Diagnosis& d) {
+  const auto* delay = remark_in<remark::DelayInstead>(d);
+  return delay != nullptr ? delay_text(delay->delay) + " " : "";
+}
+
+Json instants_json(const Diagnosis& d) {
+  const auto* delay = remark_in<remark::DelayInstead>(d);
+  if (delay == nullptr) return nullptr;
+  Json json = delay_json(delay->delay);
+  json["odds"] = std::isfinite(delay->odds) ? Json(delay->odds) : Json(nullptr);
+  return json;
 }
 
 std::vector<std::pair<std::string, std::string>> doubts_of(const Diagnosis& d) {

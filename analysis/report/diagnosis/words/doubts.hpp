@@ -59,6 +59,16 @@ inline constexpr std::string_view loop_left_out = "Loop";
 /// Times that alone keep the only cause from being named: the verdict says so. Null otherwise.
 const diagnosis::remark::TimesInstead* times_beside_cause(const diagnosis::Diagnosis& diagnosis);
 
+/// What the input may be instead of the only cause that was found, "accelerometers and gimbals of
+/// different instants leave as little"; "" if nothing is.
+std::string input_instead_text(const diagnosis::Diagnosis& diagnosis);
+
+/// `instants` of diagnosis.json, as of identification.json, with the odds against causes.
+Json instants_json(const diagnosis::Diagnosis& diagnosis);
+
+/// That accelerometers and gimbals are of different instants, with a blank behind it; or "".
+std::string instants_text(const diagnosis::Diagnosis& diagnosis);
+
 /// `beyond_prior` of diagnosis.json: one object for each such parameter.
 Json beyond_prior_json(const diagnosis::Diagnosis& diagnosis);
 

@@ -13,6 +13,7 @@
 #include "analysis/report/diagnosis/words/sentence.hpp"
 #include "analysis/report/diagnosis/words/words.hpp"
 #include "analysis/report/identify/clock_words.hpp"
+#include "analysis/report/identify/delay_words.hpp"
 #include "analysis/report/identify/loop_words.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "core/base/number_text.hpp"
@@ -187,6 +188,8 @@ struct Words {
   std::string operator()(const MemoryOff& r) const {
     return memory_sentences(r.terms, r.gaps, recordings);
   }
+
+  std::string operator()(const DelayInstead& r) const { return delay_text(r.delay); }
 
   std::string operator()(const TimesInstead& r) const { return times_instead_text(r.clock); }
 

@@ -99,8 +99,7 @@ std::string not_confirmed_text(const Diagnosis& d, bool several) {
                        decimal_text(other->probability, 2));
   if (remark_in<remark::LambdaNotSettled>(d))
     return "its weight may still be the nominal one (3 sigma)";
-  if (const auto* times = times_beside_cause(d))
-    return times_as_little_text(times->clock, times->odds);
+  if (std::string input = input_instead_text(d); !input.empty()) return input;
   return held_out_text(d, several);
 }
 
@@ -253,7 +252,8 @@ std::string sentence(const Diagnosis& d) {
   if (d.site_doubt)
     return site_text(*d.site_doubt) + (d.of_case ? upside_down_text(*d.site_doubt) : "") +
            rival_text(d);
-  std::string text = absent_text(d.absent_positions) + absent_text(d.absent) + verdict_alone(d);
+  std::string text =
+      absent_text(d.absent_positions) + absent_text(d.absent) + instants_text(d) + verdict_alone(d);
   text += field_text(d);
   if (d.nearest_known && !d.proposal)  // a form that fits is nearer
     text += nearest_text(*d.nearest_known, instrument_of(d));
