@@ -80,7 +80,7 @@ CaseErrors case_errors(const CaseTest& test, const DriftModel& model, const Thet
       const Interval& interval = timeline.intervals[i];
       nodes.assign(interval.node_count(), now);
       step_through(interval, timeline, drive_of(interval, timeline, model, theta),
-                   memory.points(interval), nodes.data());
+                   memory.steps(interval), nodes.data());
       now = nodes.back();
       seen_at = i < to.first ? interval.last_node() : interval.middle_node();
       then = i < to.first ? now : nodes[static_cast<std::size_t>(interval.substeps)];

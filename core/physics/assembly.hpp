@@ -137,6 +137,9 @@ struct PathStep {
   Vec3 turned = Vec3::Zero();
   Vec3 turned_back = Vec3::Zero();     ///< ... and from then on
   Vec3 until_reversal = Vec3::Ones();  ///< part of dt; 1 where they do not
+  /// Rate at the beginning over the mean until they reverse, from which it changes evenly: 1 where
+  /// it does not, 2 where the gimbal comes to rest. From a reversal on it grows evenly from none.
+  Vec3 begin_rate = Vec3::Ones();
 };
 
 }  // namespace drift

@@ -25,15 +25,16 @@ struct GimbalFriction {
     for (int k = 0; k < 3; ++k)
       T[k] = dahl(dahl(T[k], along.turned[k], turn), along.turned_back[k], turn);
   }
-  /// Means over a step in which the gimbals turn at even rates, there and back.
+  /// Over a step in which the rates of the gimbals change evenly, there and back.
   template <class S>
-  static void means(const PathStep& along, const S* p, const S* T, S* mean) {
+  static void moments_of(const PathStep& along, const S* p, const S* T, Moments<S>* moments) {
     const S turn = friction_turn(p[3]);
     for (int k = 0; k < 3; ++k) {
-      const double there = along.until_reversal[k];
-      mean[k] =
-          there * dahl_mean(T[k], along.turned[k], turn) +
-          (1.0 - there) * dahl_mean(dahl(T[k], along.turned[k], turn), along.turned_back[k], turn);
+      moments[k] = dahl_moments(T[k], along.turned[k], turn, along.begin_rate[k]);
+      if (const double until = along.until_reversal[k]; until < 1.0)
+        moments[k] = joined(
+            until, moments[k],
+            dahl_moments(dahl(T[k], along.turned[k], turn), along.turned_back[k], turn, 0.0));
     }
   }
   /// sum -= amplitude times friction along the axis of each gimbal, platform axes.

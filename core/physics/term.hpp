@@ -5,6 +5,7 @@
 
 #include "core/params/param_spec.hpp"
 #include "core/physics/assembly.hpp"
+#include "core/physics/memory.hpp"
 
 namespace drift {
 
@@ -35,7 +36,7 @@ enum class Subsystem {
 ///   advance(PathStep, p, m)  their exact change over a step of the nominal path
 /// that are handed to the hooks after the parameters. Where they may change within a step, and act
 /// on the rates or on what the accelerometers read, it declares
-///   mean(PathStep, p, m, mean)  their mean over the step that begins with m
+///   moments(PathStep, p, m, moments)  their Moments over the step that begins with m
 /// and steps integrate them, and rows average them, as they are (MemoryPath). Memory depends on at
 /// most one parameter of the term, number `memory_parameter`.
 ///
@@ -61,11 +62,11 @@ constexpr int memory_of() {
   else
     return 0;
 }
-/// Whether a term tells the means of its memory.
+/// Whether a term tells the moments of its memory.
 template <class T>
-constexpr bool tells_means() {
-  return requires(const PathStep& along, const double* p, double* mean) {
-    T::mean(along, p, p, mean);
+constexpr bool tells_moments() {
+  return requires(const PathStep& along, const double* p, Moments<double>* moments) {
+    T::moments(along, p, p, moments);
   };
 }
 template <class T>

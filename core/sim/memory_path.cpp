@@ -5,28 +5,10 @@
 #include "core/base/check.hpp"
 #include "core/base/dual.hpp"
 #include "core/plan/case_heading.hpp"
-#include "core/sim/measurements.hpp"
+#include "core/sim/path_point.hpp"
 
 namespace drift {
 namespace {
-
-/// A path at one instant.
-struct PathPoint {
-  Vec3 f_p;
-  Vec3 gimbal = Vec3::Zero();       ///< where a term with memory sees the gimbals
-  Vec3 gimbal_rate = Vec3::Zero();  ///< by the command alone [rad/s]
-};
-
-PathPoint path_point(const Mat3& R_lp, double heading, const Interval& interval,
-                     const Vec3& omega_ic_l, bool gimbals) {
-  PathPoint p;
-  p.f_p = R_lp.row(2);
-  if (!gimbals) return p;
-  p.gimbal = gimbal_angles<double>(case_attitude(heading).transpose() * R_lp);
-  p.gimbal_rate =
-      gimbal_rates<double>(p.gimbal, interval.omega_cmd_p - R_lp.transpose() * omega_ic_l);
-  return p;
-}
 
 /// Attitude half a step times k after the first node of an interval, phi at its nodes.
 Mat3 attitude_at(const Node* nodes, const Vec3* phi, std::size_t k) {
@@ -40,67 +22,74 @@ double heading_at(const Interval& interval, double t) {
   return interval.heading0 + (t - interval.t0) * interval.heading_rate();
 }
 
-PathStep between(const PathPoint& a, const PathPoint& b, double dt, const Vec3& omega_cmd_p) {
-  PathStep step{dt, a.f_p, b.f_p, omega_cmd_p};
-  for (int k = 0; k < 3; ++k) {
-    step.turned[k] = angle_difference(b.gimbal[k], a.gimbal[k]);
-    // A rate that changes its sign, evenly: a parabola there and back.
-    const double begin = a.gimbal_rate[k], end = b.gimbal_rate[k];
-    if (!(begin * end < 0.0)) continue;
-    const double until = begin / (begin - end);
-    const double there = 0.5 * begin * until * dt, back = step.turned[k] - there;
-    if (back * end <= 0.0) continue;
-    step.turned[k] = there;
-    step.turned_back[k] = back;
-    step.until_reversal[k] = until;
-  }
-  return step;
-}
+using D = Dual<1>;
 
-enum class Change { start, advance, mean };
+/// Of one term, each with the derivative to the parameter that its memory depends on.
+template <class T>
+struct OfTerm {
+  std::array<D, T::params.size()> p;
+  std::array<D, T::memory> m;
+  std::size_t first;
 
-/// Starts or advances the memory of all terms, or puts in its place its mean over the step, of
-/// those that tell it; each with the derivative to its own parameter.
-void change_memory(Change change, const TermMask& terms, const PathStep& along, const double* theta,
-                   MemoryPoint& point) {
-  using D = Dual<1>;
-  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
-    std::array<D, T::params.size()> p;
+  OfTerm(const TermInfo& info, const double* theta, const MemoryPoint& point)
+      : first(static_cast<std::size_t>(info.first_memory)) {
     for (std::size_t k = 0; k < p.size(); ++k) p[k] = D(theta[info.first + k]);
     p[T::memory_parameter].d[0] = 1.0;
-    std::array<D, T::memory> m;
-    const auto first = static_cast<std::size_t>(info.first_memory);
     for (std::size_t k = 0; k < m.size(); ++k) {
       m[k].v = point.value[first + k];
       m[k].d[0] = point.derivative[first + k];
     }
-    if (change == Change::start) T::start(along, p.data(), m.data());
-    if (change == Change::advance) T::advance(along, p.data(), m.data());
-    if constexpr (tells_means<T>())
-      if (change == Change::mean) {
-        const std::array<D, T::memory> from = m;
-        T::mean(along, p.data(), from.data(), m.data());
-      }
-    for (std::size_t k = 0; k < m.size(); ++k) {
-      point.value[first + k] = m[k].v;
-      point.derivative[first + k] = m[k].d[0];
+  }
+  void put(std::size_t k, const D& state, MemoryPoint& into) const {
+    into.value[first + k] = state.v;
+    into.derivative[first + k] = state.d[0];
+  }
+};
+
+enum class Change { start, advance };
+
+/// Starts or advances the memory of all terms.
+void change_memory(Change change, const TermMask& terms, const PathStep& along, const double* theta,
+                   MemoryPoint& point) {
+  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
+    OfTerm<T> term(info, theta, point);
+    if (change == Change::start) T::start(along, term.p.data(), term.m.data());
+    if (change == Change::advance) T::advance(along, term.p.data(), term.m.data());
+    for (std::size_t k = 0; k < term.m.size(); ++k) term.put(k, term.m[k], point);
+  });
+}
+
+/// Moments over a step that begins with `from`, of the terms that tell them.
+void tell_moments(const TermMask& terms, const PathStep& along, const double* theta,
+                  const MemoryPoint& from, Moments<MemoryPoint>& out) {
+  TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
+    if constexpr (tells_moments<T>()) {
+      const OfTerm<T> term(info, theta, from);
+      std::array<Moments<D>, T::memory> moments;
+      T::moments(along, term.p.data(), term.m.data(), moments.data());
+      for (std::size_t k = 0; k < moments.size(); ++k)
+        for (std::size_t j = 0; j < out.size(); ++j) term.put(k, moments[k][j], out[j]);
     }
   });
 }
 
-/// Calls visit(number) for the memory of each term that tells means.
+/// Calls visit(of) for each number that memory of terms that tell moments is made of, values and
+/// derivatives; of(point) is it.
 template <class Visit>
-void for_each_mean(const TermMask& terms, Visit&& visit) {
+void for_each_told(const TermMask& terms, Visit&& visit) {
   TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
-    if constexpr (tells_means<T>())
-      for (int k = info.first_memory; k < info.first_memory + info.memory; ++k)
-        visit(static_cast<std::size_t>(k));
+    if constexpr (tells_moments<T>())
+      for (int k = info.first_memory; k < info.first_memory + info.memory; ++k) {
+        const auto m = static_cast<std::size_t>(k);
+        visit([m](MemoryPoint& p) -> double& { return p.value[m]; });
+        visit([m](MemoryPoint& p) -> double& { return p.derivative[m]; });
+      }
   });
 }
 
-bool tell_means(const TermMask& terms) {
+bool any_told(const TermMask& terms) {
   bool any = false;
-  for_each_mean(terms, [&](std::size_t) { any = true; });
+  for_each_told(terms, [&](auto&&) { any = true; });
   return any;
 }
 
@@ -129,50 +118,63 @@ void MemoryPath::advance_along(std::size_t i, const double* theta, const Vec3* p
     change_memory(Change::advance, terms_, between(before, here, interval.t0 - t_, Vec3::Zero()),
                   theta, m);
   }
-  const bool means = tell_means(terms_);
+  const bool told = any_told(terms_);
   points_.assign(2 * nodes - 1, m);
-  means_.resize(means ? points_.size() : 0);
+  moments_.resize(told ? points_.size() : 0);
   for (std::size_t k = 1; k < points_.size(); ++k) {
     const PathPoint next =
         path_point(attitude_at(first, phi, k),
                    heading_at(interval, interval.t0 + half * static_cast<double>(k)), interval,
                    first->omega_ic_l, gimbals);
     const PathStep along = between(here, next, half, interval.omega_cmd_p);
-    if (means) {
-      means_[k] = m;
-      change_memory(Change::mean, terms_, along, theta, means_[k]);
-    }
+    if (told) tell_moments(terms_, along, theta, m, moments_[k]);
     change_memory(Change::advance, terms_, along, theta, m);
     points_[k] = m;
     here = next;
   }
   gimbal_ = here.gimbal;
   t_ = interval.t1;
-  if (means) integrate_exactly();
+  steps_.resize(nodes - 1);
+  for (std::size_t k = 0; k < steps_.size(); ++k)
+    steps_[k] = {points_[2 * k], points_[2 * k + 1], points_[2 * k + 2]};
+  if (!told) return;
+  exact_ = points_;
+  make_steps_exact();
+  make_points_exact();
 }
 
-void MemoryPath::integrate_exactly() {
-  exact_ = points_;
-  const auto both = [&](std::size_t m, auto&& change) {
-    change([m](MemoryPoint& p) -> double& { return p.value[m]; });
-    change([m](MemoryPoint& p) -> double& { return p.derivative[m]; });
-  };
-  for_each_mean(terms_, [&](std::size_t m) {
-    both(m, [&](auto&& of) {
-      // Two steps at a time, of two points each; their means from those of half a step.
-      for (std::size_t k = 0; k + 4 < points_.size(); k += 4) {
-        MemoryPoint* at = &points_[k];
-        MemoryPoint* mean = &means_[k];
-        const double first = 0.5 * (of(mean[1]) + of(mean[2])),
-                     second = 0.5 * (of(mean[3]) + of(mean[4]));
-        // The rules 5/12, 8/12, -1/12 of the first and 1/3, 4/3, 1/3 of both, solved for the nodes
-        // that no step before them shares.
-        if (k == 0) of(at[0]) = 2.0 * (first - second) + of(at[4]);
-        of(at[2]) = 0.25 * (3.0 * (first + second) - of(at[0]) - of(at[4]));
-        of(at[1]) = 0.25 * (6.0 * first - of(at[0]) - of(at[2]));
-        of(at[3]) = 0.25 * (6.0 * second - of(at[2]) - of(at[4]));
-      }
-    });
+void MemoryPath::make_steps_exact() {
+  for_each_told(terms_, [&](auto&& of) {
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      Moments<double> halves[2];
+      for (std::size_t h = 0; h < 2; ++h)
+        for (std::size_t j = 0; j < 3; ++j) halves[h][j] = of(moments_[2 * k + 1 + h][j]);
+      const Moments<double> whole = joined(0.5, halves[0], halves[1]);
+      // What Simpson's rule has the same means of, and about the middle the same other moments.
+      const double first = whole[1] - 0.5 * whole[0],
+                   second = whole[2] - whole[1] + 0.25 * whole[0];
+      of(steps_[k].begin) = 12.0 * second - 6.0 * first;
+      of(steps_[k].half) = 1.5 * whole[0] - 6.0 * second;
+      of(steps_[k].end) = 12.0 * second + 6.0 * first;
+    }
+  });
+}
+
+void MemoryPath::make_points_exact() {
+  for_each_told(terms_, [&](auto&& of) {
+    // Two steps at a time, of two points each; their means from those of half a step.
+    for (std::size_t k = 0; k + 4 < points_.size(); k += 4) {
+      MemoryPoint* at = &points_[k];
+      Moments<MemoryPoint>* m = &moments_[k];
+      const double first = 0.5 * (of(m[1][0]) + of(m[2][0])),
+                   second = 0.5 * (of(m[3][0]) + of(m[4][0]));
+      // The rules 5/12, 8/12, -1/12 of the first and 1/3, 4/3, 1/3 of both, solved for the nodes
+      // that no step before them shares.
+      if (k == 0) of(at[0]) = 2.0 * (first - second) + of(at[4]);
+      of(at[2]) = 0.25 * (3.0 * (first + second) - of(at[0]) - of(at[4]));
+      of(at[1]) = 0.25 * (6.0 * first - of(at[0]) - of(at[2]));
+      of(at[3]) = 0.25 * (6.0 * second - of(at[2]) - of(at[4]));
+    }
   });
 }
 
@@ -182,9 +184,13 @@ void MemoryPath::shift(const double* theta_old, const double* theta_new) {
     const std::size_t p = info.first + T::memory_parameter;
     const double change = theta_new[p] - theta_old[p];
     if (change == 0.0) return;
-    for (MemoryPoint& m : points_)  // and not exact_, which is what MemoryRecord reads
+    const auto move = [&](MemoryPoint& m) {
       for (int k = info.first_memory; k < info.first_memory + info.memory; ++k)
         m.value[static_cast<std::size_t>(k)] += change * m.derivative[static_cast<std::size_t>(k)];
+    };
+    for (MemoryPoint& m : points_) move(m);  // and not exact_, which is what MemoryRecord reads
+    for (StepMemory& step : steps_)
+      for (MemoryPoint* m : {&step.begin, &step.half, &step.end}) move(*m);
   });
 }
 
@@ -196,11 +202,13 @@ void MemoryRecord::trace(const double* theta) {
   theta_ = Eigen::Map<const Theta>(theta);
   points_.resize(2 * timeline_->nodes.size());
   itself_.resize(points_.size());
+  steps_.resize(timeline_->nodes.size());
   for (std::size_t i = 0; i < timeline_->intervals.size(); ++i) {
     const Interval& interval = timeline_->intervals[i];
     path_->advance(i, theta);
     std::copy_n(path_->points(), 2 * interval.node_count() - 1, &points_[2 * interval.first_node]);
     std::copy_n(path_->itself(), 2 * interval.node_count() - 1, &itself_[2 * interval.first_node]);
+    std::copy_n(path_->steps(), interval.node_count() - 1, &steps_[interval.first_node]);
   }
 }
 

@@ -34,32 +34,36 @@ Vec3 step_attitude(const Drive& drive, double t, double step, const Vec3& phi,
 }
 
 void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
-                  const MemoryPoint* memory, Vec3* out, std::size_t from) {
+                  const StepMemory* memory, Vec3* out, std::size_t from) {
   if (interval.rest) {
     std::fill(out + from + 1, out + interval.node_count(), out[from]);
     return;
   }
   const double step = interval.length() / (2.0 * interval.substeps);
-  const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
   for (std::size_t k = from; k + 1 < interval.node_count(); ++k) {
     const Node* node = &timeline.nodes[interval.first_node + k];
-    out[k + 1] = step_attitude(drive, node->t, step, out[k], {node->R_lr, past(2 * k)},
-                               {node->R_lr_half, past(2 * k + 1)}, {node[1].R_lr, past(2 * k + 2)});
+    const StepMemory* past = memory ? memory + k : nullptr;
+    out[k + 1] =
+        step_attitude(drive, node->t, step, out[k], {node->R_lr, past ? &past->begin : nullptr},
+                      {node->R_lr_half, past ? &past->half : nullptr},
+                      {node[1].R_lr, past ? &past->end : nullptr});
   }
 }
 
 void step_back_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
-                       const MemoryPoint* memory, Vec3* out) {
+                       const StepMemory* memory, Vec3* out) {
   if (interval.rest) {
     std::fill(out, out + interval.node_count() - 1, out[interval.node_count() - 1]);
     return;
   }
   const double step = interval.length() / (2.0 * interval.substeps);
-  const auto past = [&](std::size_t point) { return memory ? memory + point : nullptr; };
   for (std::size_t k = interval.node_count() - 1; k-- > 0;) {
     const Node* node = &timeline.nodes[interval.first_node + k];
-    out[k] = step_attitude(drive, node[1].t, -step, out[k + 1], {node[1].R_lr, past(2 * k + 2)},
-                           {node->R_lr_half, past(2 * k + 1)}, {node->R_lr, past(2 * k)});
+    const StepMemory* past = memory ? memory + k : nullptr;
+    out[k] = step_attitude(drive, node[1].t, -step, out[k + 1],
+                           {node[1].R_lr, past ? &past->end : nullptr},
+                           {node->R_lr_half, past ? &past->half : nullptr},
+                           {node->R_lr, past ? &past->begin : nullptr});
   }
 }
 
@@ -86,7 +90,7 @@ Trajectory integrate_fixed(const Timeline& timeline, const DriftModel& model, co
     if (i.cage)
       begin =
           caged_phi(timeline.nodes[i.first_node].R_lr, psi0_l[static_cast<std::size_t>(i.chain)]);
-    step_through(i, timeline, drive_of(i, timeline, model, theta), memory.points(), &begin);
+    step_through(i, timeline, drive_of(i, timeline, model, theta), memory.steps(), &begin);
   }
   return all;
 }

@@ -27,13 +27,13 @@ Vec3 step_attitude(const Drive& drive, double t, double step, const Vec3& phi,
                    const StepPoint& from, const StepPoint& half, const StepPoint& to);
 
 /// phi at the nodes of one interval after number `from`, whose phi is given in out[from]. memory:
-/// the points of the interval, null where the model has none.
+/// of the steps of the interval, null where the model has none.
 void step_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
-                  const MemoryPoint* memory, Vec3* out, std::size_t from = 0);
+                  const StepMemory* memory, Vec3* out, std::size_t from = 0);
 
 /// The same backwards: phi at the nodes before the last, whose phi is given.
 void step_back_through(const Interval& interval, const Timeline& timeline, const Drive& drive,
-                       const MemoryPoint* memory, Vec3* out);
+                       const StepMemory* memory, Vec3* out);
 
 /// Initial rotation vector of a chain whose attitude error is psi in local axes:
 /// R_lp = exp([psi x]) R_lr = R_lr exp([phi x]).

@@ -90,12 +90,6 @@ inline Coupling coupling_for(std::size_t term) {
   return TermLibrary::terms[term].key == closure_term ? Coupling::lambda : Coupling::eq6;
 }
 
-/// Whether a term drives the platform by what the gimbals' turns leave behind: a reversal is over
-/// in seconds, which fixed steps see to a sixth of a step.
-inline bool reverses_within_a_step(const TermInfo& term) {
-  return term.memory > 0 && term.needs.gimbals && term.in_rates;
-}
-
 /// Every term that a recording shows: no random ones.
 inline std::vector<std::size_t> visible_terms() {
   std::vector<std::size_t> terms;

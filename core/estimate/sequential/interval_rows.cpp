@@ -62,9 +62,9 @@ void IntervalRows::set_theta(const Theta& theta) {
   linearizer_.set_theta(theta_);
 }
 
-const MemoryPoint* IntervalRows::enter(std::size_t i) {
+const StepMemory* IntervalRows::enter(std::size_t i) {
   memory_.advance(i, theta_.data());
-  return memory_.points();
+  return memory_.steps();
 }
 
 void IntervalRows::look_ahead(std::size_t first, std::size_t end, const Vec3* path) {

@@ -33,9 +33,9 @@ class IntervalRows {
   void reset(const Theta& theta);
   /// From here on, linearise about other parameters; the past is as if they had held all along.
   void set_theta(const Theta& theta);
-  /// Moves the memory of the terms on over interval i, in order; its points, null where there are
-  /// none.
-  const MemoryPoint* enter(std::size_t i);
+  /// Moves the memory of the terms on over interval i, in order; that of its steps, null where
+  /// there is none.
+  const StepMemory* enter(std::size_t i);
   /// Linearises the intervals first to end - 1 beforehand, together, where that is possible. path:
   /// rotation vector at every node of the timeline [rad].
   void look_ahead(std::size_t first, std::size_t end, const Vec3* path);

@@ -90,7 +90,7 @@ void IntervalStep::linearise(std::size_t i) {
   memory_.advance(i, theta_.data());
   if (interval.cage) P_.recage(filter_.initial_attitude);
   nodes_[0] = interval.cage ? Vec3::Zero() : phi_;
-  step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_), memory_.points(),
+  step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_), memory_.steps(),
                nodes_.data());
   linearizer_.set_theta(theta_);
   linearize_interval(interval, timeline_, misalignment_matrix(model_.mounting, interval.loop),
@@ -121,7 +121,7 @@ void IntervalStep::take_accelerometers(const Interval& interval, const Vec3& acc
          InnovationSums::accelerometers);
   if (status_ == EstimateStatus::ok)
     step_through(interval, timeline_, drive_of(interval, timeline_, model_, theta_),
-                 memory_.points(), nodes_.data(), middle);
+                 memory_.steps(), nodes_.data(), middle);
 }
 
 void IntervalStep::take_gimbals(const Interval& interval, const Vec3& gimbal) {

@@ -32,7 +32,7 @@ void ReferencePath::place(const Theta& theta) {
       phi = ends_[static_cast<std::size_t>(interval.chain)];
     phi_[interval.last_node()] = phi;
     step_back_through(interval, timeline_, drive_of(interval, timeline_, model_, theta),
-                      memory_.points(interval), &phi_[interval.first_node]);
+                      memory_.steps(interval), &phi_[interval.first_node]);
     phi = phi_[interval.first_node];
   }
 }

@@ -6,7 +6,7 @@ namespace drift::terms {
 
 /// An elastic restraint of the floats (pigtails) turns what hangs the platform off into drift,
 /// k_f theta / H: here the friction of the gimbals, with the memory that `stiction` has. A reversal
-/// is over in seconds and steps take minutes, hence `mean`.
+/// is over in seconds and steps take minutes, hence `moments`.
 struct FloatRestraint : GimbalFriction {
   static constexpr std::string_view key = "float_restraint";
   static constexpr std::string_view title = "elastic restraint of the floats under gimbal friction";
@@ -21,8 +21,8 @@ struct FloatRestraint : GimbalFriction {
                          "turn over which friction builds up"));
 
   template <class S>
-  static void mean(const PathStep& along, const S* p, const S* T, S* mean) {
-    means(along, p, T, mean);
+  static void moments(const PathStep& along, const S* p, const S* T, Moments<S>* moments) {
+    moments_of(along, p, T, moments);
   }
   template <class S>
   static void rates(const Inputs<S>& in, const S* p, const S* T, RateAssembly<S>& out) {

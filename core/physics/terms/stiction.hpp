@@ -7,7 +7,7 @@ namespace drift::terms {
 /// Friction of the gimbal bearings (Dahl, exponent 1) hangs the platform off against the motion of
 /// each gimbal; after a reversal it takes a turn of about F_turn to change sides. Its memory is the
 /// friction of each gimbal over its Coulomb friction, driven by the nominal gimbal motion. A
-/// reversal is over in seconds and accelerometers are read for minutes, hence `mean`.
+/// reversal is over in seconds and accelerometers are read for minutes, hence `moments`.
 struct Stiction : GimbalFriction {
   static constexpr std::string_view key = "stiction";
   static constexpr std::string_view title = "friction of the gimbals";
@@ -22,8 +22,8 @@ struct Stiction : GimbalFriction {
                               "turn over which friction builds up"));
 
   template <class S>
-  static void mean(const PathStep& along, const S* p, const S* T, S* mean) {
-    means(along, p, T, mean);
+  static void moments(const PathStep& along, const S* p, const S* T, Moments<S>* moments) {
+    moments_of(along, p, T, moments);
   }
   template <class S>
   static void attitude_offset(const Inputs<S>& in, const S* p, const S* T, Vec3T<S>& delta_p) {

@@ -23,13 +23,6 @@ FilterSpec filter_with(std::size_t term) {
   return filter;
 }
 
-/// How well a Jacobian is known, of its largest element. Friction that turns over within a step of
-/// the quadrature is known to a sixth of a step, 5 s in ten minutes; where it turns over, to less.
-double accuracy(std::size_t param) {
-  if (!reverses_within_a_step(TermLibrary::owner(param))) return 5e-4;
-  return TermLibrary::specs[param].amplitude() ? 1e-2 : 6e-2;
-}
-
 TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {
   // Central differences of `predict` with steps of 1e-3 prior sigma. As for the base terms
   // (Sensitivity.EquationsOfMotionAgreeWithDifferences): the quadrature adds (0.05 rad)^4 in slews.
@@ -75,7 +68,7 @@ TEST(EveryTermInAFilter, HasTheJacobianOfItsPrediction) {
                                                  (2.0 * h) / readout.gimbal_noise -
                                              column[row]));
         }
-        EXPECT_LT(worst, accuracy(layout.params[k]) * column.cwiseAbs().maxCoeff() + 1e-6)
+        EXPECT_LT(worst, 5e-4 * column.cwiseAbs().maxCoeff() + 1e-6)
             << TermLibrary::specs[layout.params[k]].key.view() << " of "
             << TermLibrary::terms[t].key;
       }

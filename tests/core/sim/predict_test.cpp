@@ -103,8 +103,7 @@ TEST(EveryTermInATest, IsTheSameInTheTruthAndInTheModel) {
     double worst = 0.0;
     for (std::size_t k = 0; k < phi.size(); ++k)
       worst = std::max(worst, (phi[k] - sim.phi[k]).norm());
-    // A reversal of friction takes seconds: 0.036 deg/h times a sixth of half a minute.
-    const double bound = reverses_within_a_step(TermLibrary::terms[t]) ? 0.18 : 2e-3;  // [arcsec]
+    constexpr double bound = 2e-3;  // [arcsec]
     EXPECT_LT(worst / arcsec, bound) << TermLibrary::terms[t].key;
     EXPECT_LT(
         difference(predicted(timeline, model_of(coupling_for(t), active), theta), sim.measured),
@@ -118,7 +117,6 @@ TEST(EveryTermInATest, MayStandBesideAllOthers) {
   Theta theta = random_theta(9);
   ParamMask all;
   for (const std::size_t t : visible_terms()) {
-    if (reverses_within_a_step(TermLibrary::terms[t])) continue;  // see above
     set_term(theta, t, 0.5);
     all |= term_params(t);
   }
