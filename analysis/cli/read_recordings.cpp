@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "analysis/cli/print.hpp"
+#include "analysis/cli/progress.hpp"
 #include "analysis/cli/still_to_check.hpp"
 #include "analysis/preparation/own_names.hpp"
 #include "analysis/report/page/wording.hpp"
@@ -137,11 +138,26 @@ void tell_remarks(const QualityCard& card, const mc::Study& study,
         report::plural(remarks.size() - most));
 }
 
+/// The part of a large file that is read, which takes seconds, and the time left.
+ReadProgress reading_progress(const std::string& path, const std::string& style) {
+  constexpr std::uintmax_t large = 20'000'000;  // [bytes] a second or so
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (unknown || size < large) return {};
+  const auto report = stage_reporter(style, "reading");
+  if (!report) return {};
+  return [report, name = std::filesystem::path(path).filename().string()](double part) {
+    report(name, part);
+  };
+}
+
 /// One of the files, which the study reads.
 Recording read_one(const mc::Study& study, const std::string& path,
-                   const std::vector<std::string>& paths) {
+                   const std::vector<std::string>& paths, const std::string& progress) {
   try {
-    Recording r = read_recording(path, study.recording, study.kind, study.site.gravity);
+    const ReadProgress told = reading_progress(path, progress);
+    Recording r = read_recording(path, study.recording, study.kind, study.site.gravity, told);
+    if (told) told(1.0);
     check_time_unit(study, r);
     return r;
   } catch (const InputError& error) {
@@ -208,7 +224,8 @@ std::optional<std::string> assumed_gravity(const mc::Study& study) {
 }
 
 std::vector<Recording> read_recordings(const mc::Study& study,
-                                       const std::vector<std::string>& paths) {
+                                       const std::vector<std::string>& paths,
+                                       const std::string& progress) {
   for (std::size_t k = 0; k < paths.size(); ++k)
     for (std::size_t before = 0; before < k; ++before)
       if (std::error_code unknown; std::filesystem::equivalent(paths[k], paths[before], unknown))
@@ -220,7 +237,7 @@ std::vector<Recording> read_recordings(const mc::Study& study,
   say("{}", still_to_check_text(study));
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
-    recordings.push_back(read_one(study, path, paths));
+    recordings.push_back(read_one(study, path, paths, progress));
     tell_assumed_gravity(study, recordings.back());
     tell_other_latitude(study, recordings.back(), path);
     tell_other_gravity(study, recordings.back());

@@ -24,6 +24,29 @@ double log_gain_of_more_noise(const inference::Marginal& m) {
          0.5 * std::log(n);
 }
 
+/// White noise of more than the prior of its factor has with NoiseLimits::significant_p; 180 times
+/// what is declared.
+std::optional<remark::IncredibleNoise> incredible_noise(const search::Fitted& nominal) {
+  std::optional<remark::IncredibleNoise> worst;
+  for (const inference::NoiseFinding& f : nominal.noise.findings) {
+    if (!f.component.ends_with("_white") || !(f.factor > 1.0)) continue;
+    const double chance = inference::NoisePrior::chance_of_factor(f.factor);
+    if (chance < inference::NoiseLimits::significant_p && (!worst || f.factor > worst->factor))
+      worst = remark::IncredibleNoise{f.component, f.factor, chance};
+  }
+  return worst;
+}
+
+/// Nothing is missing, but for noise that nobody has.
+Judged consistent_unless_noise(Judged out, const search::Fitted& nominal) {
+  const auto noise = incredible_noise(nominal);
+  if (out.verdict != Verdict::consistent || !noise) return out;
+  out.verdict = Verdict::unexplained;
+  out.of_no_noise = noise->chance;
+  out.remarks.emplace_back(*noise);
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> judge_members(const search::Fitted& nominal, const MeasuredTest& test,
@@ -66,13 +89,14 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
       out.verdict = Verdict::ambiguous;
       out.likelier_missing = {nothing};
     }
-    return out;
+    return consistent_unless_noise(std::move(out), nominal);
   }
   const search::Refit* best = found.sets.empty() ? nullptr : &found.sets.front();
   // Chance is what is more probable; noise or priors that explain the same as an effect must be
   // credible.
-  if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance)) return out;
-  if (noise + posterior.wrong_priors > credible) return out;
+  if (noise > (best && found.noise_alone ? credible : inference::SearchLimits::chance) ||
+      noise + posterior.wrong_priors > credible)
+    return consistent_unless_noise(std::move(out), nominal);
   const bool one = found.sets.size() == 1, or_noise = noise > 1.0 - credible;
   const bool members = std::all_of(member_gains.begin(), member_gains.end(), [](double gain) {
     return gain >= inference::WeighLimits::held_out;

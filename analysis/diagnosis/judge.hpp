@@ -41,8 +41,9 @@ enum class NamedBy { held_out, fit_alone };
 /// that something is missing rather than not (SearchLimits::chance). Where nothing is
 /// found but the rows are not of the noise that was found either (one more factor of noise would be
 /// a million times as likely, its price paid, and more than twice as large; or no likelihood can be
-/// had of them at all), it is unexplained. member_gains: of the best explanation, as
-/// judge_members() gives them.
+/// had of them at all), it is unexplained; so it is where white noise is so many times as declared
+/// as no study has it (NoisePrior::chance_of_factor() below NoiseLimits::significant_p).
+/// member_gains: of the best explanation, as judge_members() gives them.
 Judged judge(const search::Fitted& nominal, const search::Search& found,
              const search::Posterior& posterior, const HeldOut& held_out,
              const std::vector<double>& member_gains, NamedBy by);

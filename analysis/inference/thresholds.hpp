@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "analysis/inference/fit_thresholds.hpp"
 
@@ -135,6 +136,13 @@ struct NoisePrior {
   static double log_density(double z) {
     constexpr double at_zero = 0.3675525969478614;  // 2 / (pi sqrt(3))
     return std::log(at_zero) - 2.0 * std::log1p(z * z / 3.0);
+  }
+  /// The chance that noise is not as declared and, of white noise declared within a factor of two,
+  /// so many times as much or more, or as much less: both tails of that t.
+  static double chance_of_factor(double factor) {
+    const double z = std::abs(std::log2(factor)) / std::sqrt(3.0);
+    const double beyond = 1.0 - 2.0 / std::numbers::pi * (std::atan(z) + z / (1.0 + z * z));
+    return (1.0 - as_declared) * beyond;
   }
   /// [z] Of 40 instruments one has more: its 97.5 % point. Test: Thresholds.DrivingNoiseIs...
   static constexpr double usual = 3.182446305284263;

@@ -134,12 +134,12 @@ void seal(const std::string& file, const std::string& path, const std::string& e
 }  // namespace
 
 Recording read_recording(const std::string& path, const RecordingFormat& format, RecordingKind kind,
-                         double gravity) {
+                         double gravity, const ReadProgress& progress) {
   require_regular_file(path);
   Problems problems(path);
   RawRecording raw;
   if (is_text_file(path)) {
-    raw = read_csv(path, format, kind, problems);
+    raw = read_csv(path, format, kind, problems, progress);
   } else if (is_binary_file(path)) {
     raw = with_format(read_binary(path, problems), format, kind, problems);
   } else {

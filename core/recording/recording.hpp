@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,9 +53,12 @@ Recording read_recording(const std::string& path, RecordingKind kind, double gra
 
 struct RecordingFormat;
 
+/// Told which part of a text file is read, 0 to 1, every so many lines and at its end.
+using ReadProgress = std::function<void(double part)>;
+
 /// Reads a user's file as its format says; .txt and .dat are read as CSV. The same errors.
 Recording read_recording(const std::string& path, const RecordingFormat& format, RecordingKind kind,
-                         double gravity);
+                         double gravity, const ReadProgress& progress = {});
 
 /// Looks over a recording that was not read from a file, as read_recording() looks over those that
 /// are: channels of one length, time and the others that its kind needs, times that increase,

@@ -32,14 +32,14 @@ std::string single_line(std::string_view text) {
 }
 
 RawRecording read_csv(const std::string& path, const RecordingFormat& format, RecordingKind kind,
-                      Problems& problems) {
+                      Problems& problems, const ReadProgress& progress) {
   CsvLayout layout = find_layout(path, format, kind);
   if (layout.header.empty()) {
     problems.add("1", "there is no header row", "a row such as 'time [s],acc_x [g],...'",
                  "Add the header, or check how the recording was exported");
     return {};
   }
-  return CsvRows(path, std::move(layout), format, kind, problems).read();
+  return CsvRows(path, std::move(layout), format, kind, problems).read(progress);
 }
 
 }  // namespace drift

@@ -16,7 +16,7 @@ namespace drift {
 /// comma. An empty cell or nan is NaN. Rows with a problem are reported and left out; a last row
 /// that is cut off is left out with a remark. InputError (io) if the file cannot be read.
 RawRecording read_csv(const std::string& path, const RecordingFormat& format, RecordingKind kind,
-                      Problems& problems);
+                      Problems& problems, const ReadProgress& progress = {});
 
 /// Writes the recording as CSV: facts as comments, the shortest digits that read back as the same
 /// number, in the unit of each channel; empty cells for NaN. `facts` stand for those of the

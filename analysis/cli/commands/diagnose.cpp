@@ -60,7 +60,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
         fmt::format("diagnose: a strapdown study takes one recording, {} are given. Name one "
                     "on the command line",
                     paths.size()));
-  const auto recordings = read_recordings(study, paths);
+  const auto recordings = read_recordings(study, paths, arguments.progress);
   flush_output();
   diagnosis::DiagnoseOptions options;
   options.progress = stage_reporter(arguments.progress, "diagnose");
@@ -84,7 +84,7 @@ ExitCode diagnose_case(const StudyArguments& arguments, const mc::Study& study,
 ExitCode diagnose_platform(const StudyArguments& arguments, const mc::Study& study,
                            const std::vector<std::string>& paths, const std::string& folder,
                            const std::optional<std::vector<std::string>>& advise) {
-  const auto recordings = read_recordings(study, paths);
+  const auto recordings = read_recordings(study, paths, arguments.progress);
   flush_output();
   diagnosis::RecordingsOptions options;
   options.diagnose.progress = stage_reporter(arguments.progress, "diagnose");

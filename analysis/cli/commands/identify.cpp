@@ -50,7 +50,7 @@ ExitCode identify(const StudyArguments& arguments, const std::vector<std::string
   require_results_folder({folder, "identify"}, with(paths, study.path));
   if (study.kind == RecordingKind::strapdown) return identify_case(study, paths, folder);
   const auto progress = progress_reporter(arguments.progress, "estimates");
-  const auto recordings = read_recordings(study, paths);
+  const auto recordings = read_recordings(study, paths, arguments.progress);
   const identification::Identification id =
       paths.empty() ? identification::identify_simulated(study, run.value_or(0), 0, progress)
                     : identification::identify_recordings(study, recordings, 0, progress);

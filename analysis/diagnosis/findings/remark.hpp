@@ -91,6 +91,12 @@ struct DrivesOneGyro {
   int axis = 0;
   double gain = 0.0;  ///< of twice the log likelihood
 };
+/// White noise so far above what is declared that no study declares it so wrong.
+struct IncredibleNoise {
+  std::string component;  ///< accelerometer_white, gimbal_white
+  double factor = 1.0;    ///< estimated over declared
+  double chance = 1.0;    ///< of so much or more, or as far below, by NoisePrior
+};
 /// With these in the model, what is the strongest of what is left.
 struct StrongestLeft {
   std::vector<std::string> labels;
@@ -184,9 +190,9 @@ using Remark = std::variant<
     remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
     remark::LikelierMissing, remark::SamplesLeftOut, remark::FreeInputExplains,
     remark::PeriodExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
-    remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior, remark::OtherPriors,
-    remark::OtherEquation, remark::MemoryOff, remark::TimesInstead, remark::DelayInstead,
-    remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
-    remark::CommonDriftUnseen, remark::NotObservable>;
+    remark::DrivesOneGyro, remark::IncredibleNoise, remark::StrongestLeft, remark::BeyondPrior,
+    remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
+    remark::DelayInstead, remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
+    remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

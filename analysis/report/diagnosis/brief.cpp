@@ -118,6 +118,12 @@ std::string next_step(const Diagnosis& d, bool off_zero) {
   if (d.heading_doubt) return corrected_text(*d.heading_doubt, "diagnose");
   if (d.site_doubt && d.site_doubt->clock) return clock_next(*d.site_doubt->clock, "diagnose");
   if (d.site_doubt) return latitude_next(*d.site_doubt, "diagnose");
+  if (const auto* noise = remark_in<remark::IncredibleNoise>(d))
+    return fmt::format(
+        "Next: look at the rows of the {}, their unit and the noise that [readout] declares; "
+        "correct "
+        "what is wrong and diagnose again.",
+        noise->component == "gimbal_white" ? "gimbals" : "accelerometers");
   if (const auto reversed = reversed_commands(d); !reversed.empty())
     return fmt::format(
         "Next: correct the sign of {} in the recording, or in [recording] columns of the study, "

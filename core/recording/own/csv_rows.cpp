@@ -100,10 +100,13 @@ bool CsvRows::is_header_sound() {
   return layout_.header.size() > 1;
 }
 
-RawRecording CsvRows::read() {
+RawRecording CsvRows::read(const ReadProgress& progress) {
+  constexpr std::size_t lines_told = 20000;  // a tenth of a second
   std::string_view line;
   if (layout_.header_line == 0 && uses_.empty()) return {};
   while (lines_.next(line)) {
+    if (progress && lines_.number() % lines_told == 0)
+      progress(part_of(lines_.consumed(), lines_.file_size()));
     const bool header = lines_.number() == layout_.header_line;
     if (lines_.number() < layout_.header_line && !line.starts_with('#')) continue;
     if (!is_text(line)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,7 +21,12 @@ class CsvRows {
           RecordingKind kind, Problems& problems);
 
   /// The columns under the program's names. InputError (io).
-  RawRecording read();
+  RawRecording read(const ReadProgress& progress = {});
+  /// UTF-16 is read as longer text, whose end is not known beforehand.
+  static double part_of(std::size_t consumed, std::size_t size) {
+    return size > 0 ? std::min(0.99, static_cast<double>(consumed) / static_cast<double>(size))
+                    : 0.0;
+  }
 
  private:
   /// What is wrong with a row, kept until it is known that it is not the last, which may be cut.

@@ -148,6 +148,14 @@ struct Words {
         "xyz"[r.axis], r.gain);
   }
 
+  std::string operator()(const IncredibleNoise& r) const {
+    return fmt::format(
+        "White noise of the {} {:.3g} times as declared is no noise that a study is wrong by "
+        "(chance "
+        "{}): the rows, their unit, or the noise that [readout] declares must be wrong.",
+        r.component == "gimbal_white" ? "gimbals" : "accelerometers", r.factor, p_text(r.chance));
+  }
+
   std::string operator()(const StrongestLeft& r) const {
     return fmt::format(
         "With {} in the model the strongest of what is left is {}: {} and diagnose again",
