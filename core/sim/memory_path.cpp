@@ -22,25 +22,25 @@ double heading_at(const Interval& interval, double t) {
   return interval.heading0 + (t - interval.t0) * interval.heading_rate();
 }
 
-using D = Dual<1>;
+using SlopeOf = Dual<1>;
 
 /// Of one term, each with the derivative to the parameter that its memory depends on.
 template <class T>
 struct OfTerm {
-  std::array<D, T::params.size()> p;
-  std::array<D, T::memory> m;
+  std::array<SlopeOf, T::params.size()> p;
+  std::array<SlopeOf, T::memory> m;
   std::size_t first;
 
   OfTerm(const TermInfo& info, const double* theta, const MemoryPoint& point)
       : first(static_cast<std::size_t>(info.first_memory)) {
-    for (std::size_t k = 0; k < p.size(); ++k) p[k] = D(theta[info.first + k]);
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = SlopeOf(theta[info.first + k]);
     p[T::memory_parameter].d[0] = 1.0;
     for (std::size_t k = 0; k < m.size(); ++k) {
       m[k].v = point.value[first + k];
       m[k].d[0] = point.derivative[first + k];
     }
   }
-  void put(std::size_t k, const D& state, MemoryPoint& into) const {
+  void put(std::size_t k, const SlopeOf& state, MemoryPoint& into) const {
     into.value[first + k] = state.v;
     into.derivative[first + k] = state.d[0];
   }
@@ -65,7 +65,7 @@ void tell_moments(const TermMask& terms, const PathStep& along, const double* th
   TermLibrary::for_each_memory(terms, [&]<class T>(const TermInfo& info) {
     if constexpr (tells_moments<T>()) {
       const OfTerm<T> term(info, theta, from);
-      std::array<Moments<D>, T::memory> moments;
+      std::array<Moments<SlopeOf>, T::memory> moments;
       T::moments(along, term.p.data(), term.m.data(), moments.data());
       for (std::size_t k = 0; k < moments.size(); ++k)
         for (std::size_t j = 0; j < out.size(); ++j) term.put(k, moments[k][j], out[j]);

@@ -25,9 +25,9 @@ constexpr double usual_part = 0.9, beyond_usual = 3.0;
 constexpr std::size_t pause = 3;
 
 /// What one kind of instrument shows.
-class Shown {
+class ShownAngles {
  public:
-  Shown(const Recording& recording, const ChannelTriple& channels)
+  ShownAngles(const Recording& recording, const ChannelTriple& channels)
       : recording_(recording), channels_(channels) {}
 
   bool at(std::size_t row) const { return measured(recording_, channels_, row).has_value(); }
@@ -61,7 +61,7 @@ class Shown {
 
   /// What the dwell in the middle of a stretch moves by from look to look, nearly always; empty
   /// where nothing is seen of it.
-  std::optional<double> usual_step(const Stretch& s, std::size_t stride) const {
+  std::optional<double> usual_step(const RowStretch& s, std::size_t stride) const {
     const std::size_t quarter = s.rows() / parts_of_a_position;
     const auto rows = looked_at(s.first + quarter, s.end - quarter, stride);
     std::vector<double> steps;
@@ -80,7 +80,7 @@ class Shown {
 
 /// The rows at both ends of all that moves, of which every part turns the platform; none of it does
 /// if the whole does not.
-std::optional<SeenTurn> moving(const Shown& shown, const std::vector<std::size_t>& rows,
+std::optional<SeenTurn> moving(const ShownAngles& shown, const std::vector<std::size_t>& rows,
                                double limit) {
   std::optional<SeenTurn> turn;
   std::size_t begin = 0, end = 0;  // of a part, by looks
@@ -104,8 +104,8 @@ std::optional<SeenTurn> moving(const Shown& shown, const std::vector<std::size_t
 }  // namespace
 
 std::optional<SeenTurn> turn_at_change(const Recording& recording, const ChannelTriple& channels,
-                                       const Stretch& before, const Stretch& behind) {
-  const Shown shown(recording, channels);
+                                       const RowStretch& before, const RowStretch& behind) {
+  const ShownAngles shown(recording, channels);
   const std::size_t stride =
       std::max<std::size_t>(1, std::max(before.rows(), behind.rows()) / looks);
   const auto one = shown.usual_step(before, stride), other = shown.usual_step(behind, stride);

@@ -33,11 +33,11 @@ Coefficients basis(double x, int degree) {
 }
 
 /// Rows that one smooth course goes through.
-struct Stretch {
+struct EvenRows {
   std::size_t first = 0, end = 0;
 };
 
-std::vector<Stretch> stretches_of(const Recording& r) {
+std::vector<EvenRows> stretches_of(const Recording& r) {
   const std::vector<double>& time = r.find("time")->values;
   std::vector<std::pair<const Channel*, double>> held;  // what breaks it, by more than that
   for (const auto& [name, room] : {std::pair{"position", 0.0},
@@ -47,7 +47,7 @@ std::vector<Stretch> stretches_of(const Recording& r) {
                                    {"cmd_y", same_command},
                                    {"cmd_z", same_command}})
     if (const Channel* c = r.find(name)) held.emplace_back(c, room);
-  std::vector<Stretch> all;
+  std::vector<EvenRows> all;
   const auto add = [&](std::size_t first, std::size_t end) {
     const double length = time[end - 1] - time[first];
     const auto parts = static_cast<std::size_t>(std::max(1.0, std::ceil(length / longest_stretch)));
@@ -70,7 +70,7 @@ std::vector<Stretch> stretches_of(const Recording& r) {
 class Course {
  public:
   /// Empty (`any` false) where too little was read.
-  Course(const std::vector<double>& time, const std::vector<double>& values, const Stretch& s)
+  Course(const std::vector<double>& time, const std::vector<double>& values, const EvenRows& s)
       : middle_(0.5 * (time[s.first] + time[s.end - 1])),
         half_(std::max(0.5 * (time[s.end - 1] - time[s.first]), 1e-9)) {
     std::vector<std::size_t> rows;
@@ -117,7 +117,7 @@ class Course {
 };
 
 /// Angles without whole turns between two rows of a stretch.
-std::vector<double> unwrapped(std::vector<double> values, const Stretch& s) {
+std::vector<double> unwrapped(std::vector<double> values, const EvenRows& s) {
   constexpr double turn = 360.0 * detail::deg;
   double before = nan_value;
   for (std::size_t row = s.first; row < s.end; ++row) {
@@ -134,11 +134,11 @@ void shift_readings(Recording& recording, std::span<const std::string_view> chan
                     double seconds) {
   if (seconds == 0.0 || recording.find("time") == nullptr) return;
   const std::vector<double> time = recording.find("time")->values;
-  const std::vector<Stretch> stretches = stretches_of(recording);
+  const std::vector<EvenRows> stretches = stretches_of(recording);
   for (Channel& c : recording.channels) {
     if (std::ranges::find(channels, c.name) == channels.end()) continue;
     const bool angle = c.name.starts_with("gimbal_");
-    for (const Stretch& s : stretches) {
+    for (const EvenRows& s : stretches) {
       if (s.end - s.first < fewest) continue;
       const Course course(time, angle ? unwrapped(c.values, s) : c.values, s);
       if (!course.any()) continue;
@@ -151,14 +151,14 @@ void shift_readings(Recording& recording, std::span<const std::string_view> chan
 double scatter_about_course(const Recording& recording,
                             std::span<const std::string_view> channels) {
   const std::vector<double>& time = recording.find("time")->values;
-  const std::vector<Stretch> stretches = stretches_of(recording);
+  const std::vector<EvenRows> stretches = stretches_of(recording);
   std::vector<double> off;
   for (const std::string_view name : channels) {
     const Channel* c = recording.find(name);
     const std::vector<double>& weights =
         name.starts_with("gimbal_") ? recording.readings : recording.samples;
     for (std::size_t k = 0; c != nullptr && k < stretches.size(); ++k) {
-      const Stretch& s = stretches[k];
+      const EvenRows& s = stretches[k];
       if (s.end - s.first < fewest) continue;
       const std::vector<double> values =
           name.starts_with("gimbal_") ? unwrapped(c->values, s) : c->values;
