@@ -107,13 +107,14 @@ void name_time_by_values(GuessedFile& file) {
 void count_clock_of_numbers(GuessedFile& file) {
   for (GuessedColumn& c : file.columns) {
     const auto unit = c.channel == "time" ? parse_recording_unit(c.unit) : std::nullopt;
-    if (!unit || c.back.first == c.back.second ||
-        !begins_again_at_midnight(c.back.first * unit->to_si, c.back.second * unit->to_si))
-      continue;
-    constexpr double day = 86400.0;  // [s]
+    const auto period =
+        unit && c.back.first != c.back.second
+            ? begins_again_after(c.back.first * unit->to_si, c.back.second * unit->to_si)
+            : std::nullopt;
+    if (!period) continue;
     file.format.counter = c.header.name;
     file.format.tick = unit->to_si;
-    file.format.wrap = std::round(day / unit->to_si);
+    file.format.wrap = std::round(*period / unit->to_si);
     c.channel.clear();
     c.unit.clear();
   }

@@ -15,7 +15,8 @@ void guess_counter(GuessedFile& file);
 /// one column of dates that change stands before the times of day in it.
 void name_time_by_values(GuessedFile& file);
 
-/// A time in numbers that begins again at midnight is a counter of as many counts as make a day.
+/// A time in numbers that begins again at midnight, or with the week, is a counter of as many
+/// counts as make a day, or a week.
 void count_clock_of_numbers(GuessedFile& file);
 
 }  // namespace drift

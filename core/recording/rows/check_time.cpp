@@ -12,6 +12,8 @@
 namespace drift {
 namespace {
 
+constexpr double day = 86400.0;  // [s]
+
 /// Whether so many rows have the time of the row before that none was written twice: the time is
 /// too coarse. Said once.
 bool report_shared_times(const Recording& r, const Channel& time, Problems& problems) {
@@ -37,7 +39,7 @@ bool report_shared_times(const Recording& r, const Channel& time, Problems& prob
 bool report_twelve_hours(const Recording& r, const Channel& time, Problems& problems) {
   const auto zero = std::ranges::find(r.facts, "time_zero", [](const auto& f) { return f.first; });
   const auto clock = zero == r.facts.end() ? std::nullopt : parse_clock(zero->second);
-  const auto hour = [&](double t) { return std::floor(std::fmod(*clock + t, 86400.0) / 3600.0); };
+  const auto hour = [&](double t) { return std::floor(std::fmod(*clock + t, day) / 3600.0); };
   for (std::size_t i = 1; clock && i < r.rows(); ++i) {
     const double before = time.values[i - 1], after = time.values[i];
     if (!(after < before) || hour(before) != 12.0 || hour(after) != 1.0) continue;
@@ -67,9 +69,11 @@ std::string place_in(const Recording& r, std::size_t row, std::string_view colum
   return fmt::format("{}:{}", line_of(r, row), column);
 }
 
-bool begins_again_at_midnight(double before, double after) {
-  constexpr double day = 86400.0, hour = 3600.0;
-  return before <= day && before > day - hour && after >= 0.0 && after < hour;
+std::optional<double> begins_again_after(double before, double after) {
+  constexpr double week = 604800.0, hour = 3600.0;
+  for (const double period : {day, week})
+    if (before <= period && before > period - hour && after >= 0.0 && after < hour) return period;
+  return std::nullopt;
 }
 
 void check_time(const Recording& r, Problems& problems) {
@@ -84,19 +88,22 @@ void check_time(const Recording& r, Problems& problems) {
       problems.add(place_in(r, i, "time"), "the time is missing", "a number in every row",
                    "Give the time");
     } else if (!(t > last)) {
+      const auto begins_again = begins_again_after(last, t);
       problems.add(
           place_in(r, i, "time"),
           fmt::format("{} s {} {} s at {}", t, t == last ? "repeats" : "comes after", last,
                       line_of(r, last_row)),
           "time to increase from row to row",
-          begins_again_at_midnight(last, t)
-              ? "If this is a clock that begins again at midnight, read it as a counter in "
-                "[recording] of the study file: counter = \"its header\", tick = \"1 ms\" "
-                "and wrap = 86400000, or what a count is, and how many make a day"
+          begins_again
+              ? fmt::format("If this is a clock that begins again {}, read it as a counter in "
+                            "[recording] of the study file: counter = \"its header\", tick = \"1 "
+                            "ms\" and wrap = {:.0f}, or what a count is, and how many make a {}",
+                            *begins_again > day ? "with the week, as that of GPS" : "at midnight",
+                            1e3 * *begins_again, *begins_again > day ? "week" : "day")
               : "Remove rows that were written twice; if a clock begins again here (in each "
                 "position, in autumn, where a counter is full), write times that go on, or "
                 "read it as a counter of [recording]; sort only rows that are out of order");
-      if (begins_again_at_midnight(last, t)) last = -HUGE_VAL;  // said once
+      if (begins_again) last = -HUGE_VAL;  // said once
     }
     if (t > last) {
       last = t;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,9 +18,10 @@ void number_rows(Recording& recording, std::size_t rows);
 /// Where a row is, for messages: "line:column".
 std::string place_in(const Recording& recording, std::size_t row, std::string_view column);
 
-/// Whether a step back in time [s] may be that of a clock of 24 hours: over midnight within an
-/// hour.
-bool begins_again_at_midnight(double before, double after);
+/// After how many seconds a clock begins again of which a step back in time [s] may be: within an
+/// hour over midnight one of 24 hours, over the end of a week the time of the week of GPS. Empty:
+/// of neither.
+std::optional<double> begins_again_after(double before, double after);
 
 /// Adds a problem for every row without a time or with one that does not come after those before;
 /// one for all rows where so many share a time that it is written too coarsely.

@@ -250,17 +250,19 @@ TEST(NewStudy, TimeAndTemperatureAreToldByTheirUnitsAndPositionsByTheirTexts) {
 
 TEST(NewStudy, AClockOfNumbersThatBeginsAgainAtMidnightIsProposedAsTheCounterThatItIs) {
   const ScratchFolder folder;
-  for (const auto& [unit, per_s, tick] :
-       {std::tuple{"ms", 1e3, "1 ms"}, std::tuple{"s", 1.0, "1 s"}}) {
+  for (const auto& [unit, per_s, tick, period] :
+       {std::tuple{"ms", 1e3, "1 ms", 86400.0}, std::tuple{"s", 1.0, "1 s", 86400.0},
+        std::tuple{"s", 1.0, "1 s", 604800.0}}) {  // of a week, as of GPS
     std::string rows = fmt::format("Uhr [{}],Lage,ax [g],ay [g],az [g]\n", unit);
     for (int i = 0; i < 20; ++i)
-      rows += fmt::format("{:.1f},{},0.0{},0,1\n", std::fmod(86100.0 + 60.0 * i, 86400.0) * per_s,
-                          i < 10 ? 1 : 2, i % 10);
+      rows +=
+          fmt::format("{:.1f},{},0.0{},0,1\n", std::fmod(period - 300.0 + 60.0 * i, period) * per_s,
+                      i < 10 ? 1 : 2, i % 10);
     const auto look = driftscope("look '" + folder.write("log.csv", rows) + "'");
     ASSERT_EQ(look.code, 0) << look.err;
     EXPECT_TRUE(has(look.out, "counter = \"Uhr\"")) << look.out;
     EXPECT_TRUE(has(look.out, std::string("tick    = \"") + tick + "\"")) << look.out;
-    EXPECT_TRUE(has(look.out, fmt::format("wrap    = {:.0f}", 86400.0 * per_s))) << look.out;
+    EXPECT_TRUE(has(look.out, fmt::format("wrap    = {:.0f}", period * per_s))) << look.out;
     EXPECT_FALSE(has(look.out, "time = ")) << look.out;
     EXPECT_FALSE(has(look.out, "not a recording yet")) << look.out;
   }
