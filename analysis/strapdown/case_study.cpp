@@ -9,6 +9,7 @@
 #include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/held_rows.hpp"
+#include "analysis/strapdown/checks/saturated.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/dead_channels.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
@@ -189,9 +190,12 @@ preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& s
   return preparation::noise_card(recording, RecordingKind::strapdown, resting_rows(search));
 }
 
-void leave_out_not_measured(Recording& recording, std::vector<std::string>& remarks) {
+std::vector<Saturation> leave_out_not_measured(Recording& recording,
+                                               std::vector<std::string>& remarks) {
   preparation::leave_out_fillers_on_a_case(recording, remarks);
+  std::vector<Saturation> saturated = leave_out_saturated(recording);
   preparation::leave_out_stuck(recording, remarks);
+  return saturated;
 }
 
 CaseStudy case_study(const mc::Study& study, const Recording& given) {
@@ -200,7 +204,7 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   CaseStudy out;
   Recording recording = given;
   number_rows(recording, recording.rows());
-  leave_out_not_measured(recording, out.remarks);
+  const std::vector<Saturation> saturated = leave_out_not_measured(recording, out.remarks);
   out.source = recording.source;
   out.static_min = study.static_min;
   const Signals signals = signals_of(recording);
@@ -208,6 +212,9 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   if (out.search.dwells.empty())
     throw InputError(ExitCode::recording,
                      fmt::format("{}: {}", out.source, why_no_dwell(signals, study.static_min)));
+  for (const Saturation& s : saturated)
+    out.saturated.push_back(saturation_text(s, recording, out.search.dwells));
+  out.remarks.insert(out.remarks.begin(), out.saturated.begin(), out.saturated.end());
   require_live_accelerometers(out.search.dwells, out.source);
   if (const std::string wrong =
           preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));

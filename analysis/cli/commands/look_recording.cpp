@@ -12,6 +12,7 @@
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
+#include "analysis/strapdown/checks/saturated.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
@@ -116,8 +117,12 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
          std::abs(*f - 1.0) < 0.02 ? "" : ": check their units, or was the case moving?");
   preparation::NoiseCard card;
   if (kind == RecordingKind::strapdown) {
+    Recording measured = r;
+    const std::vector<Saturation> saturated = strapdown::leave_out_saturated(measured);
     const auto search =
-        strapdown::find_dwells(strapdown::signals_of(r), {.static_min = static_min});
+        strapdown::find_dwells(strapdown::signals_of(measured), {.static_min = static_min});
+    for (const Saturation& s : saturated)
+      show("! {}\n", strapdown::saturated_turns_text(s, r, search.dwells));
     show_dwells(search, static_min);
     card = strapdown::noise_of(r, search);
   } else {

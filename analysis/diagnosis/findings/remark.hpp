@@ -34,6 +34,10 @@ struct Input {
 struct GimbalOffZero {
   std::string text;
 };
+/// A gyro on a case at the end of its range, said where it was read.
+struct SaturatedGyro {
+  std::string text;
+};
 /// Recordings state a loop that removed misalignments, and the nominal model has another coupling.
 struct LoopLeftOut {
   identification::StatedLoop loop;
@@ -167,13 +171,15 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::LoopLeftOut, remark::JustSignificantLeft,
-    remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
-    remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
-    remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft, remark::BeyondPrior,
-    remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
-    remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
-    remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark =
+    std::variant<remark::Input, remark::GimbalOffZero, remark::SaturatedGyro, remark::LoopLeftOut,
+                 remark::JustSignificantLeft, remark::LambdaNotSettled, remark::MemberNotConfirmed,
+                 remark::NotPredicted, remark::OrNoise, remark::SamplesLeftOut,
+                 remark::FreeInputExplains, remark::PeriodExplains, remark::LeftNotWhite,
+                 remark::CrosstalkMovesLambda, remark::DrivesOneGyro, remark::StrongestLeft,
+                 remark::BeyondPrior, remark::OtherPriors, remark::OtherEquation, remark::MemoryOff,
+                 remark::TimesInstead, remark::FieldAssumed, remark::NoiseOrEffect,
+                 remark::NoAdvice, remark::NoDeclaredNoise, remark::CommonDriftUnseen,
+                 remark::NotObservable>;
 
 }  // namespace drift::diagnosis

@@ -76,7 +76,7 @@ TEST(QualityCard, FindsStuckAndSaturatedSensorsAndCountsWhatIsMissing) {
   EXPECT_EQ(acc.measured, 98u);
   EXPECT_EQ(acc.stuck, 25u);
   EXPECT_EQ(acc.stuck_line, 40u);
-  EXPECT_EQ(acc.saturated, 2u);
+  EXPECT_EQ(acc.saturated(), 2u);
   EXPECT_DOUBLE_EQ(acc.max, 2000.0);
   const std::string text = to_text(card);
   EXPECT_NE(text.find("acc_x: 25 identical samples from line 40"), std::string::npos) << text;

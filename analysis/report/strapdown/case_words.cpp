@@ -1,0 +1,168 @@
+#include "analysis/report/strapdown/case_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "analysis/identification/common_scale.hpp"
+#include "analysis/identification/identify.hpp"
+#include "analysis/report/identify/latitude_words.hpp"
+#include "analysis/report/page/wording.hpp"
+#include "core/base/words.hpp"
+
+namespace drift::report {
+
+using strapdown::CaseFit;
+using strapdown::CaseIdentification;
+
+std::string up_of(const strapdown::Dwell& dwell) {
+  const Vec3 up = dwell.acc.normalized();
+  return fmt::format("x {:.3f} y {:.3f} z {:.3f} deg above the horizon",
+                     std::asin(up[0]) / unit::deg.to_si, std::asin(up[1]) / unit::deg.to_si,
+                     std::asin(up[2]) / unit::deg.to_si);
+}
+
+/// What is said of North.
+std::string azimuth_sentence(const CaseIdentification& id) {
+  if (!id.study.compass.sees_earth)
+    return "The gyros do not see the Earth: of every turn it is told where up is before and after "
+           "it, and North is not known";
+  return fmt::format(
+      "The gyros see the Earth: North to {} deg (1 sigma), its rate taken from the latitude",
+      number_text(id.study.compass.sigma / unit::deg.to_si, 2));
+}
+
+std::string counted(std::size_t n, std::string_view what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+std::string contest_sentence(const CaseIdentification& id) {
+  std::vector<std::string> errors;
+  for (const CaseFit& fit : id.fits)
+    errors.push_back(fmt::format("eq. ({}) {} deg", facts(fit.equation).number,
+                                 number_text(fit.up.held_out, 4)));
+  return fmt::format("Held-out turns: {} ({:.1f} standard errors in favour of eq. ({}))",
+                     fmt::join(errors, ", "), std::abs(id.eq5_gain), id.eq5_gain > 0.0 ? 5 : 6);
+}
+
+namespace {
+
+/// "x", or "x and y and 3 more".
+std::string some_of(const std::vector<std::string>& all) {
+  constexpr std::size_t most = 6;
+  if (all.size() <= most) return fmt::format("{}", fmt::join(all, ", "));
+  return fmt::format("{} and {} more", fmt::join(all.begin(), all.begin() + most, ", "),
+                     all.size() - most);
+}
+
+/// Of the filter without what was held out; of data that no fit could predict nothing.
+std::string errors_sentence(const CaseFit& fit) {
+  const bool up = fit.up.count > 0 && std::isfinite(fit.up.held_out),
+             gyro = fit.up.count > 0 && std::isfinite(fit.gyro.held_out);
+  return fmt::format("{}{}{}",
+                     up ? fmt::format("Up after a turn that was held out: {} deg off",
+                                      number_text(fit.up.held_out, 3))
+                        : "",
+                     gyro ? fmt::format("{}yros in dwells held out: {} deg/h", up ? "; g" : "G",
+                                        number_text(fit.gyro.held_out, 3))
+                          : "",
+                     up || gyro ? "." : "");
+}
+
+/// " (16 more are left out for gaps)"; empty: none is.
+std::string gaps_text(const strapdown::CaseStudy& s) {
+  const std::size_t n = s.test.ways_with_gap;
+  return n == 0 ? "" : fmt::format(" ({} more {} left out for gaps)", n, n == 1 ? "is" : "are");
+}
+
+/// What moves the three K1 alike, unless the study is of another place.
+std::optional<identification::CommonScale> gravity_off(const CaseIdentification& id) {
+  if (id.latitude) return std::nullopt;
+  return identification::common_scale(id.fits.front().fit.estimate);
+}
+
+/// Whether the recording misfits by nothing but the priors of the three K1.
+bool misfit_of_gravity_alone(const CaseIdentification& id) {
+  const EstimateResult& estimate = id.fits.front().fit.estimate;
+  return identification::misfit(estimate) && gravity_off(id) &&
+         !identification::misfit(identification::without_prior_cost(estimate));
+}
+
+/// What diagnose does for a recording that is a misfit, and for one that is none.
+std::string next_of(const CaseIdentification& id) {
+  if (id.latitude) return latitude_next(*id.latitude, "identify");
+  if (gravity_off(id) &&
+      (misfit_of_gravity_alone(id) || !identification::misfit(id.fits.front().fit.estimate)))
+    return gravity_next("identify");
+  return fmt::format("Next: driftscope diagnose, on the same study and recording, says {}.",
+                     identification::misfit(id.fits.front().fit.estimate)
+                         ? "what is missing, in the model or in the noise"
+                         : "whether an effect is missing from the model");
+}
+
+}  // namespace
+
+InBrief case_in_brief(const CaseIdentification& id) {
+  const CaseFit& first = id.fits.front();
+  const EstimateResult& estimate = first.fit.estimate;
+  const std::size_t all = estimate.parameters.size();
+  const auto alone = static_cast<std::size_t>(std::ranges::count_if(
+      first.parameters, [](const auto& p) { return TermLibrary::find(p.key).has_value(); }));
+  const std::size_t sums = first.parameters.size() - alone;
+  const std::string told =
+      fmt::format("{} of {} parameters {} learned{}", alone, all, alone == 1 ? "is" : "are",
+                  sums > 0 ? fmt::format(", and {} of others", counted(sums, "sum")) : "");
+  const auto& dwells = id.study.search.dwells;
+  const bool at_rest = dwells.size() == 1;
+  InBrief brief;
+  const std::string fits = fmt::format("chi-square per degree of freedom {}",
+                                       number_text(estimate.statistic_per_dof(), 3));
+  if (id.latitude)
+    brief.verdict = fmt::format(
+        "Wrong latitude{}: the gyros at rest see the Earth as it turns at {}, not at {:.3f} deg; "
+        "there chi-square per degree of freedom is {} instead of {}. Correct it first.{}",
+        id.latitude->alone() ? "" : " and more", latitude_text(*id.latitude),
+        id.latitude->declared / unit::deg.to_si, number_text(id.latitude->chi2_per_dof_after, 3),
+        number_text(id.latitude->chi2_per_dof_before, 3), upside_down_text(*id.latitude));
+  else if (misfit_of_gravity_alone(id))
+    brief.verdict = fmt::format(
+        "Misfit of priors alone: {} where noise makes 1, and {} without what the priors of K1_x, "
+        "K1_y and K1_z cost, which one cause moves.",
+        fits, number_text(identification::without_prior_cost(estimate).statistic_per_dof(), 3));
+  else if (identification::misfit(estimate))
+    brief.verdict = fmt::format(
+        "Misfit: {} where noise makes 1: something is missing or wrong, and no number below is to "
+        "be trusted.",
+        fits);
+  else if (at_rest)
+    brief.verdict = fmt::format("Found: one rest of {:.0f} s and no turn; {}.",
+                                dwells.front().duration(), told);
+  else
+    brief.verdict =
+        fmt::format("Found: {} and {}{}; {}, {}.", counted(dwells.size(), "dwell"),
+                    counted(id.study.test.ways.size(), "turn"), gaps_text(id.study), told, fits);
+  const auto gravity = gravity_off(id);
+  brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad
+               : gravity || !id.study.saturated.empty()        ? Tone::doubtful
+                                                               : Tone::good;
+  for (const std::string& text : id.study.saturated)
+    brief.more.add(Weight::wrong, "Range: " + text + ".");
+  if (gravity) brief.more.add(Weight::wrong, "Gravity: " + common_scale_text(*gravity));
+  brief.more.add(Weight::note, azimuth_sentence(id) + ".");
+  if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
+  if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");
+  if (const std::string errors = errors_sentence(first); !errors.empty())
+    brief.more.add(Weight::note, errors);
+  std::vector<std::string> unseen;
+  for (const auto& u : first.unobservable) unseen.push_back(u.what);
+  if (!unseen.empty())
+    brief.more.add(Weight::note,
+                   fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
+  brief.next = next_of(id);
+  return brief;
+}
+
+}  // namespace drift::report
