@@ -67,12 +67,10 @@ std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIden
 }
 
 void remark(Diagnosis& d, const CaseIdentification& id) {
-  const std::vector<std::string>& first = id.study.saturated;
-  d.remarks.insert(d.remarks.begin(), first.size(), diagnosis::remark::SaturatedGyro{});
-  for (std::size_t k = 0; k < first.size(); ++k)
-    d.remarks[k] = diagnosis::remark::SaturatedGyro{first[k]};
-  for (std::size_t k = first.size(); k < id.study.remarks.size(); ++k)
-    d.remarks.emplace_back(diagnosis::remark::Input{id.study.remarks[k]});
+  for (const std::string& text : id.study.remarks)
+    if (text != id.study.saturated) d.remarks.emplace_back(diagnosis::remark::Input{text});
+  if (!id.study.saturated.empty())
+    d.remarks.insert(d.remarks.begin(), diagnosis::remark::SaturatedGyro{id.study.saturated});
   d.remarks.emplace_back(diagnosis::remark::NoDeclaredNoise{});
   for (const Unobservable& u : id.fits.front().unobservable)
     d.remarks.emplace_back(diagnosis::remark::NotObservable{u.what, u.reason});

@@ -212,9 +212,8 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   if (out.search.dwells.empty())
     throw InputError(ExitCode::recording,
                      fmt::format("{}: {}", out.source, why_no_dwell(signals, study.static_min)));
-  for (const Saturation& s : saturated)
-    out.saturated.push_back(saturation_text(s, recording, out.search.dwells));
-  out.remarks.insert(out.remarks.begin(), out.saturated.begin(), out.saturated.end());
+  out.saturated = saturation_text(saturated, recording, out.search.dwells);
+  if (!out.saturated.empty()) out.remarks.insert(out.remarks.begin(), out.saturated);
   require_live_accelerometers(out.search.dwells, out.source);
   if (const std::string wrong =
           preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));

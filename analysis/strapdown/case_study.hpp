@@ -15,8 +15,7 @@ namespace drift::strapdown {
 struct CaseStudy {
   std::string source;
   std::vector<std::string> remarks;  ///< what of the recording is left out, or looks wrong
-  /// Of gyros at the end of their range, the first of these remarks (saturated.hpp).
-  std::vector<std::string> saturated;
+  std::string saturated;    ///< of gyros at the end of their range, the first remark then; or ""
   double static_min = 0.0;  ///< shortest dwell that counts [s]
   DwellSearch search;
   Gyrocompass compass;

@@ -148,8 +148,8 @@ InBrief case_in_brief(const CaseIdentification& id) {
   brief.tone = id.latitude || identification::misfit(estimate) ? Tone::bad
                : gravity || !id.study.saturated.empty()        ? Tone::doubtful
                                                                : Tone::good;
-  for (const std::string& text : id.study.saturated)
-    brief.more.add(Weight::wrong, "Range: " + text + ".");
+  if (!id.study.saturated.empty())
+    brief.more.add(Weight::wrong, "Range: " + id.study.saturated + ".");
   if (gravity) brief.more.add(Weight::wrong, "Gravity: " + common_scale_text(*gravity));
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");

@@ -1,6 +1,7 @@
 #include "analysis/strapdown/checks/saturated.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,11 +11,9 @@
 namespace drift::strapdown {
 namespace {
 
-std::string turn_text(const TurnOf& turn, std::size_t dwells) {
-  const std::string at = fmt::format("at {:.6g} s", turn.time);
-  if (turn.number == 0) return fmt::format("before the first dwell ({})", at);
-  if (turn.number >= dwells) return fmt::format("behind the last dwell ({})", at);
-  return fmt::format("{} ({})", turn.number, at);
+/// Outside them nothing is made of what gyros read.
+bool is_between(const TurnOf& turn, const std::vector<Dwell>& dwells) {
+  return turn.number > 0 && turn.number < dwells.size();
 }
 
 }  // namespace
@@ -43,27 +42,46 @@ std::vector<TurnOf> turns_of(const std::vector<std::size_t>& rows, const std::ve
 std::string saturated_turns_text(const Saturation& s, const Recording& recording,
                                  const std::vector<Dwell>& dwells) {
   constexpr std::size_t most = 6;
-  std::vector<std::string> turns;
-  for (const TurnOf& turn : turns_of(s.rows, recording.find("time")->values, dwells))
-    turns.push_back(turn_text(turn, dwells.size()));
-  return fmt::format("{}: in turn{} {}", s.channel, turns.size() == 1 ? "" : "s",
-                     listed_up_to(turns, most));
+  std::vector<std::string> numbered, where;
+  for (const TurnOf& turn : turns_of(s.rows, recording.find("time")->values, dwells)) {
+    const std::string at = fmt::format("at {:.6g} s", turn.time);
+    if (turn.number == 0)
+      where.push_back(fmt::format("before the first dwell ({})", at));
+    else if (turn.number >= dwells.size())
+      where.push_back(fmt::format("behind the last dwell ({})", at));
+    else
+      numbered.push_back(fmt::format("{} ({})", turn.number, at));
+  }
+  if (!numbered.empty())
+    where.insert(where.begin(), fmt::format("in turn{} {}", numbered.size() == 1 ? "" : "s",
+                                            listed_up_to(numbered, most)));
+  return fmt::format("{} {}", s.channel, listed(where, "and"));
 }
 
-std::string saturation_text(const Saturation& s, const Recording& recording,
+std::string saturation_text(const std::vector<Saturation>& all, const Recording& recording,
                             const std::vector<Dwell>& dwells) {
-  const std::string where = saturated_turns_text(s, recording, dwells),
-                    rate = fmt::format("{:.5g} deg/s", s.value / detail::deg);
-  if (s.at == Saturation::At::between)
-    return fmt::format(
-        "{} {} stands still for {} samples, at {}, where its noise lets it for less: stuck, or at "
-        "the end of its range, and left out with the turn. Look at the sensor and its range",
-        where, s.channel, s.rows.size(), rate);
+  std::vector<std::string> said;
+  for (const Saturation& s : all) {
+    if (std::ranges::none_of(turns_of(s.rows, recording.find("time")->values, dwells),
+                             [&](const TurnOf& t) { return is_between(t, dwells); }))
+      continue;
+    const std::string where = saturated_turns_text(s, recording, dwells),
+                      rate = fmt::format("{:.5g} deg/s", s.value / detail::deg);
+    said.push_back(s.at == Saturation::At::between
+                       ? fmt::format("{} stands still for {} samples at {}, longer than its noise "
+                                     "lets it",
+                                     where, s.rows.size(), rate)
+                       : fmt::format("{} reads {}, its {} of all, in {} rows, more often than "
+                                     "noise reads one value",
+                                     where, rate,
+                                     s.at == Saturation::At::low ? "least" : "greatest",
+                                     s.rows.size()));
+  }
+  if (said.empty()) return "";
   return fmt::format(
-      "{} {} rows read {}, its {} of all, more often than noise reads one value: it is at the end "
-      "of its range, and does not say how fast the unit turns. The rows are left out, and the "
-      "turns with them. Turn more slowly, or set a larger range",
-      where, s.rows.size(), rate, s.at == Saturation::At::low ? "least" : "greatest");
+      "{}. A gyro at the end of its range (or stuck) does not say how fast the unit turns: these "
+      "rows are left out, and the turns with them. Turn more slowly, or set a larger range",
+      fmt::join(said, "; "));
 }
 
 }  // namespace drift::strapdown

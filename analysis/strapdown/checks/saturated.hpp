@@ -25,12 +25,13 @@ struct TurnOf {
 std::vector<TurnOf> turns_of(const std::vector<std::size_t>& rows, const std::vector<double>& time,
                              const std::vector<Dwell>& dwells);
 
-/// Which gyro in which turns: "gyro_y: in turns 3 (at 45.2 s), 7 (at 80 s)".
+/// Which gyro in which turns: "gyro_y in turns 3 (at 45.2 s), 7 (at 80 s)".
 std::string saturated_turns_text(const Saturation& saturation, const Recording& recording,
                                  const std::vector<Dwell>& dwells);
 
-/// Which gyro, value, how many rows, in which turns, and what to do.
-std::string saturation_text(const Saturation& saturation, const Recording& recording,
+/// Which gyros, values, how many rows, in which turns between dwells, and what to do; empty: no
+/// turn is lost.
+std::string saturation_text(const std::vector<Saturation>& all, const Recording& recording,
                             const std::vector<Dwell>& dwells);
 
 }  // namespace drift::strapdown

@@ -101,8 +101,11 @@ bool is_sensor(const ChannelQuality& q) {
 }
 
 /// What looks broken.
-void remark_channels(QualityCard& card) {
+void remark_channels(const Recording& r, QualityCard& card) {
   for (const auto& q : card.channels) {
+    const bool said = std::ranges::any_of(q.standing, [&](const Saturation& s) {
+      return std::ranges::any_of(s.rows, [&](std::size_t k) { return r.lines[k] == q.stuck_line; });
+    });
     if (q.measured == 0)
       card.remarks.add(Weight::wrong, q.name + ": nothing was measured");
     else if (is_sensor(q) && q.stuck >= 3 && q.step > 0.0)
@@ -112,7 +115,7 @@ void remark_channels(QualityCard& card) {
               "{0}: its readings are steps of {1:.3g} {2} (identical for up to {3} samples): "
               "a noise of less than {4:.2g} {2} is not in them",
               q.name, q.step, q.unit, q.stuck, q.step / std::sqrt(12.0)));
-    else if (is_sensor(q) && q.stuck >= 20)
+    else if (is_sensor(q) && q.stuck >= 20 && !said)
       card.remarks.add(Weight::wrong,
                        fmt::format("{}: {} identical samples from line {} on: a stuck sensor?",
                                    q.name, q.stuck, q.stuck_line));
@@ -238,7 +241,7 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   remark_saturated(recording, card);
   remark_repeats(recording, card);
   remark_gaps(card);
-  remark_channels(card);
+  remark_channels(recording, card);
   ask_about_fahrenheit(card);
   card.remarks.add(recording.remarks);
   remark_absent(recording, kind, card);
