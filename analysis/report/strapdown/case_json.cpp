@@ -6,6 +6,7 @@
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
+#include "analysis/report/strapdown/case_words.hpp"
 
 namespace drift::report {
 
@@ -41,6 +42,15 @@ json to_json(const CaseFit& fit) {
            {"converged", fit.fit.estimate.status == EstimateStatus::ok},
            {"parameters", std::move(parameters)},
            {"unobservable", std::move(unobservable)}};
+  json instruments = json::array();
+  for (const auto& one : fit.instruments)
+    instruments.push_back({{"instrument", instrument_name(one.of)},
+                           {"chi2_per_dof", one.per_dof()},
+                           {"dof", one.dof},
+                           {"chance", one.chance()},
+                           {"too_large", too_large(one, fit.instruments)},
+                           {"sigmas_too_small_by", one.factor()}});
+  out["instruments"] = std::move(instruments);
   if (fit.up.count > 0) out["rotations"] = to_json(fit.up, "deg");
   if (fit.gyro.count > 0) out["dwells"] = to_json(fit.gyro, "deg/h");
   if (fit.gravity.count > 0) out["gravity"] = to_json(fit.gravity, "g");

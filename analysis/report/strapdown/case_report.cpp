@@ -19,7 +19,8 @@ using strapdown::CaseFit;
 using strapdown::CaseIdentification;
 
 DRIFT_SECTIONS(CaseIdentification, case_sections, (case_test, details), (case_parameters, evidence),
-               (case_unobservable, how_sure), (case_held_out, how_sure), (case_noise, how_sure));
+               (case_unobservable, how_sure), (case_instruments, how_sure),
+               (case_held_out, how_sure), (case_noise, how_sure));
 
 namespace {
 
@@ -102,6 +103,23 @@ Section case_unobservable(const CaseIdentification& id) {
     for (const auto& u : fit.unobservable) t.add({u.what, u.reason});
     section.blocks.emplace_back(std::move(t));
   }
+  return section;
+}
+
+Section case_instruments(const CaseIdentification& id) {
+  Section section{"Chi-square by instrument", {}};
+  Table t(
+      "Of what each fit leaves: gravity and gyros by dwell, up in dwells as turns carry it",
+      "<filter | <instrument | chi-square per degree of freedom | degrees | chance of so much | "
+      "sigmas too small by");
+  for (const CaseFit& fit : id.fits)
+    for (const auto& one : fit.instruments) {
+      const bool large = too_large(one, fit.instruments);
+      t.add({fit.name, instrument_name(one.of),
+             digits(one.per_dof(), 3, large ? Tone::doubtful : Tone::plain), digits(one.dof, 3),
+             p_cell(one.chance()), large ? digits(one.factor(), 2) : Cell("-")});
+    }
+  if (!id.fits.empty() && !id.fits.front().instruments.empty()) section.blocks.emplace_back(t);
   return section;
 }
 

@@ -48,6 +48,36 @@ std::string contest_sentence(const CaseIdentification& id) {
                      fmt::join(errors, ", "), std::abs(id.eq5_gain), id.eq5_gain > 0.0 ? 5 : 6);
 }
 
+std::string_view instrument_name(strapdown::Instrument of) {
+  switch (of) {
+    case strapdown::Instrument::gravity:
+      return "gravity in dwells";
+    case strapdown::Instrument::direction:
+      return "up in dwells";
+    case strapdown::Instrument::gyros:
+      return "gyros at rest";
+    case strapdown::Instrument::read_in_turn:
+      break;
+  }
+  return "accelerometers in turns";
+}
+
+std::string instrument_text(const strapdown::InstrumentFit& fit) {
+  using strapdown::Instrument;
+  const std::string_view what =
+      fit.of == Instrument::gravity     ? "the accelerometers' parameters (K0, K1, dP, dO ...)"
+      : fit.of == Instrument::direction ? "what turns tell (s, eta, xi ...)"
+      : fit.of == Instrument::gyros     ? "the gyros' drift (D_F, D_I ...)"
+                                        : "what accelerometers tell in turns (arm, acc_delay)";
+  return fmt::format(
+      "{} {} more than noise, chi-square per degree of freedom {} of {} (chance {}): sigmas of {} "
+      "are about {} times too small. `diagnose` looks for the noise",
+      instrument_name(fit.of),
+      fit.of == Instrument::gravity || fit.of == Instrument::direction ? "scatters" : "scatter",
+      number_text(fit.per_dof(), 3), number_text(fit.dof, 2), p_text(fit.chance()), what,
+      number_text(fit.factor(), 2));
+}
+
 namespace {
 
 /// "x", or "x and y and 3 more".
@@ -151,6 +181,11 @@ InBrief case_in_brief(const CaseIdentification& id) {
   if (!id.study.saturated.empty())
     brief.more.add(Weight::wrong, "Range: " + id.study.saturated + ".");
   if (gravity) brief.more.add(Weight::wrong, "Gravity: " + common_scale_text(*gravity));
+  // Where everything misfits that is said, and none of it is believed.
+  if (!id.latitude && !identification::misfit(estimate))
+    for (const strapdown::InstrumentFit& fit : first.instruments)
+      if (strapdown::too_large(fit, first.instruments))
+        brief.more.add(Weight::doubtful, "Sigmas: " + instrument_text(fit) + ".");
   brief.more.add(Weight::note, azimuth_sentence(id) + ".");
   if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
   if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");

@@ -12,6 +12,11 @@ namespace drift::report {
 /// What the identification of a strapdown recording says in a few lines.
 InBrief case_in_brief(const strapdown::CaseIdentification& id);
 
+/// What an instrument is called: "gravity in dwells".
+std::string_view instrument_name(strapdown::Instrument of);
+/// What is said of one that leaves more than noise does; factor: of its parameters' sigmas.
+std::string instrument_text(const strapdown::InstrumentFit& fit);
+
 /// "x 12.345 y ... deg above the horizon".
 std::string up_of(const strapdown::Dwell& dwell);
 /// What is said of North.
