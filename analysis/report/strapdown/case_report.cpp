@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
 #include "analysis/report/strapdown/case_words.hpp"
+#include "analysis/strapdown/sensed.hpp"
 #include "core/base/words.hpp"
 #include "mc/study/own_terms_check.hpp"
 
@@ -30,6 +33,18 @@ std::string estimates_csv(const CaseIdentification& id) {
     for (const auto& p : fit.parameters)
       out += fmt::format("{},{},{},{},{},{}\n", csv_field(fit.name), csv_field(p.key),
                          csv_field(p.unit), p.value, p.sigma, csv_field(p.note));
+  return out;
+}
+
+/// Of all parameters of each filter, as the sensors have them.
+std::string covariance_csv(const CaseIdentification& id) {
+  std::string out(covariance_header);
+  for (const CaseFit& fit : id.fits) {
+    EstimateResult sensed = strapdown::as_sensed(fit.fit.estimate);
+    if (!id.study.compass.sees_earth) sensed = strapdown::without_common_drift(std::move(sensed));
+    out += covariance_rows(fmt::format("{},{},1,batch", csv_field(fit.name), key_of(fit.equation)),
+                           sensed);
+  }
   return out;
 }
 
@@ -158,6 +173,7 @@ Report case_report(const mc::Study& study, const CaseIdentification& id) {
   report.document = {"identification.json", document.dump(2) + "\n"};
   report.files.emplace_back("study.toml", study.text);
   report.files.emplace_back("estimates.csv", estimates_csv(id));
+  report.files.emplace_back("covariance.csv", covariance_csv(id));
   return report;
 }
 
