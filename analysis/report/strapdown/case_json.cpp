@@ -78,6 +78,15 @@ json dwells_json(const CaseIdentification& id) {
           {"list", std::move(list)}};
 }
 
+/// Of an axis of the case in the first dwell, clockwise from North as seen from above.
+json azimuth_json(const CaseIdentification& id) {
+  const strapdown::AxisHeading heading = first_heading(id);
+  return {{"axis", std::string(1, "xyz"[heading.axis])},
+          {"from_north_to_east_deg", heading.azimuth / unit::deg.to_si},
+          {"sigma_deg", id.study.compass.sigma / unit::deg.to_si},
+          {"at_s", id.study.search.dwells.front().start}};
+}
+
 }  // namespace
 
 json to_json(const CaseIdentification& id, double gravity) {
@@ -99,6 +108,7 @@ json to_json(const CaseIdentification& id, double gravity) {
        {{"count", id.study.test.ways.size()}, {"omitted", id.study.test.ways_with_gap}}},
       {"earth_seen", earth},
       {"azimuth_sigma_deg", earth ? json(id.study.compass.sigma / unit::deg.to_si) : json(nullptr)},
+      {"azimuth", earth ? azimuth_json(id) : json(nullptr)},
       {"latitude_doubt", latitude_json(id.latitude)},
       {"folds", id.division.folds},
       {"repeats", id.division.repeats},

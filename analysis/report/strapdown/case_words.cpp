@@ -25,14 +25,28 @@ std::string up_of(const strapdown::Dwell& dwell) {
                      std::asin(up[2]) / unit::deg.to_si);
 }
 
+strapdown::AxisHeading first_heading(const CaseIdentification& id) {
+  return strapdown::axis_heading(id.study.search.dwells.front().acc,
+                                 id.study.compass.azimuth.front());
+}
+
 /// What is said of North.
 std::string azimuth_sentence(const CaseIdentification& id) {
+  if (!id.study.compass.sees_earth && id.latitude)
+    return fmt::format(
+        "At {:.3f} deg, the latitude of the study, what the gyros read at rest is not the Earth's "
+        "rate: the fit there takes every turn by itself, and North is not told",
+        id.latitude->declared / unit::deg.to_si);
   if (!id.study.compass.sees_earth)
     return "The gyros do not see the Earth: of every turn it is told where up is before and after "
            "it, and North is not known";
+  const double sigma = id.study.compass.sigma / unit::deg.to_si;
+  const strapdown::AxisHeading heading = first_heading(id);
   return fmt::format(
-      "The gyros see the Earth: North to {} deg (1 sigma), its rate taken from the latitude",
-      number_text(id.study.compass.sigma / unit::deg.to_si, 2));
+      "The gyros see the Earth: North to {} deg (1 sigma), its rate taken from the latitude; in "
+      "the first dwell the {} axis of the case points {} deg from North, to East",
+      number_text(sigma, 2), "xyz"[heading.axis],
+      to_match(heading.azimuth / unit::deg.to_si, sigma));
 }
 
 std::string counted(std::size_t n, std::string_view what) {
@@ -194,8 +208,11 @@ InBrief case_in_brief(const CaseIdentification& id) {
   std::vector<std::string> unseen;
   for (const auto& u : first.unobservable) unseen.push_back(u.what);
   if (!unseen.empty())
-    brief.more.add(Weight::note,
-                   fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
+    brief.more.add(Weight::note, fmt::format("{} this recording shows little of {}.",
+                                             id.latitude && !id.study.compass.sees_earth
+                                                 ? "As it is fitted at the latitude of the study,"
+                                                 : "Alone",
+                                             some_of(unseen)));
   brief.next = next_of(id);
   return brief;
 }

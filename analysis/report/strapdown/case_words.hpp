@@ -19,6 +19,8 @@ std::string instrument_text(const strapdown::InstrumentFit& fit);
 
 /// "x 12.345 y ... deg above the horizon".
 std::string up_of(const strapdown::Dwell& dwell);
+/// Where an axis of the case points in the first dwell, as the gyros have it.
+strapdown::AxisHeading first_heading(const strapdown::CaseIdentification& id);
 /// What is said of North.
 std::string azimuth_sentence(const strapdown::CaseIdentification& id);
 /// "1 turn", "2 turns".
