@@ -211,7 +211,8 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   out.search = find_dwells(signals, {.static_min = study.static_min});
   if (out.search.dwells.empty())
     throw InputError(ExitCode::recording,
-                     fmt::format("{}: {}", out.source, why_no_dwell(signals, study.static_min)));
+                     fmt::format("{}: {}", out.source,
+                                 why_no_dwell(signals, study.static_min, out.search.longest_left)));
   out.saturated = saturation_text(saturated, recording, out.search.dwells);
   if (!out.saturated.empty()) out.remarks.insert(out.remarks.begin(), out.saturated);
   require_live_accelerometers(out.search.dwells, out.source);

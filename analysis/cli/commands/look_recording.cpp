@@ -82,15 +82,16 @@ void show_positions(const Recording& r) {
 }
 
 void show_dwells(const strapdown::DwellSearch& search, double static_min) {
-  show("\n{} dwells of at least {:g} s\n", search.dwells.size(), static_min);
+  show("\n{} dwells: quiet for at least {:g} s, {:g} s of which are left out at their ends\n",
+       search.dwells.size(), static_min, strapdown::DwellOptions{}.window);
   if (search.dwells.empty()) return;
-  show("{:>12}{:>10}{:>12}{:>12}{:>12}{:>10}\n", "from [s]", "for [s]", "acc_x [g]", "acc_y [g]",
-       "acc_z [g]", "|f| [g]");
+  show("{:>12}{:>11}{:>10}{:>12}{:>12}{:>12}{:>10}\n", "from [s]", "quiet [s]", "for [s]",
+       "acc_x [g]", "acc_y [g]", "acc_z [g]", "|f| [g]");
   constexpr std::size_t most = 30;
   for (std::size_t i = 0; i < std::min(most, search.dwells.size()); ++i) {
     const strapdown::Dwell& d = search.dwells[i];
-    show("{:>12.6g}{:>10.4g}{:>12.6f}{:>12.6f}{:>12.6f}{:>10.6f}\n", d.start, d.duration(),
-         d.acc.x(), d.acc.y(), d.acc.z(), d.acc.norm());
+    show("{:>12.6g}{:>11.4g}{:>10.4g}{:>12.6f}{:>12.6f}{:>12.6f}{:>10.6f}\n", d.start, d.quiet,
+         d.duration(), d.acc.x(), d.acc.y(), d.acc.z(), d.acc.norm());
   }
   if (search.dwells.size() > most) show("and {} more\n", search.dwells.size() - most);
 }

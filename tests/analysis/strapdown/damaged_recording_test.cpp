@@ -139,6 +139,16 @@ TEST(DamagedRecording, AnAccelerometerThatReadsNoiseAloneIsNamedAndALiveOneIsNot
   }
 }
 
+TEST(DamagedRecording, RestsThatAreTooShortAreSaidWithTheirLengthAndThatOfTheQuietInThem) {
+  const std::string said = refusal(test::strapdown_recording(
+      {.dwells = 12, .rest = 2.0, .gyro_noise = 1e-4, .seed = 3}, Theta::Zero()));
+  EXPECT_NE(said.find("no dwell of 2 s"), std::string::npos) << said;
+  EXPECT_NE(said.find("the longest quiet stretch lasts 1."), std::string::npos) << said;
+  EXPECT_NE(said.find("quiet is judged over 0.5 s: a rest has to last 2.5 s to be quiet for 2 s"),
+            std::string::npos)
+      << said;
+}
+
 TEST(DamagedRecording, TimesInMillisecondsUnderSecondsAreAskedFor) {
   Recording r = made();
   for (double& t : channel(r, "time")) t *= 1000.0;
