@@ -200,10 +200,28 @@ def residuals(folder):
     return _table(_file(folder, "residuals.csv", "the results of `driftscope identify` on a platform"))
 
 
+def _covariance_of_table(folder, filter, start, estimator, correlation):
+    table = _table(_file(folder, "covariance.csv", "the results of `driftscope identify`"))
+    names = list(table["filter"].unique())
+    if filter is None and len(names) == 1:
+        filter = names[0]
+    for name, value in (("filter", filter), ("start", start), ("estimator", estimator)):
+        if value not in table[name].values:
+            raise DriftscopeError(f"{folder}: has no {name} {value!r} (expected one of "
+                                  f"{', '.join(str(v) for v in table[name].unique())})")
+        table = table[table[name] == value]
+    keys = list(dict.fromkeys(table["parameter"]))
+    half = table.pivot(index="parameter", columns="parameter_2",
+                       values="correlation" if correlation else "covariance").reindex(index=keys, columns=keys)
+    return half.fillna(half.T)
+
+
 def covariance(folder, filter=None, start=1, estimator="batch", correlation=False):
     """Covariance (or correlation) matrix of an identification: a square DataFrame by parameter.
 
     filter: a name of the study; may be left out where it has one."""
+    if (Path(folder) / "covariance.csv").is_file() and not (Path(folder) / "identification.nc").is_file():
+        return _covariance_of_table(folder, filter, start, estimator, correlation)  # of a strapdown recording
     ds = open(folder)
     if "covariance" not in ds:
         raise DriftscopeError(f"{folder}: has no covariance (expected the results of `driftscope identify`)")

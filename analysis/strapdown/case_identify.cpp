@@ -46,9 +46,10 @@ CaseIdentification identify_case(const mc::Study& study, CaseStudy of) {
     const FilterSpec seen = case_filter(filter, out.study);
     BatchResult fit = fit_batch(seen, out.study.measured(), start_of(seen, out.study));
     CaseScores scores = scores_of(seen, fit, out.study, out.division, out.seed);
+    std::vector<InstrumentFit> instruments = instrument_fits(seen, out.study.measured(), fit);
     fit.estimate = under_walk(seen, out.study.measured(), fit);
     out.fits.push_back({findings_of(as_sensed(fit.estimate), earth), std::move(scores), filter.name,
-                        filter.coupling, fit});
+                        filter.coupling, fit, std::move(instruments)});
   }
   out.eq5_gain = nan_value;
   const auto with = [&](Coupling equation) {

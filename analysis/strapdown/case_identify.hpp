@@ -5,6 +5,7 @@
 
 #include "analysis/identification/latitude_doubt.hpp"
 #include "analysis/strapdown/case_held_out.hpp"
+#include "analysis/strapdown/checks/instrument_fit.hpp"
 #include "analysis/strapdown/findings.hpp"
 
 namespace drift::strapdown {
@@ -12,8 +13,9 @@ namespace drift::strapdown {
 /// A filter of the study fitted to a strapdown recording, all parameters with one covariance.
 struct CaseFit : Findings, CaseScores {
   std::string name;
-  Coupling equation = Coupling::eq5;  ///< as the study has it
-  BatchResult fit;                    ///< of the platform's filter (case_filter)
+  Coupling equation = Coupling::eq5;            ///< as the study has it
+  BatchResult fit;                              ///< of the platform's filter (case_filter)
+  std::vector<InstrumentFit> instruments = {};  ///< what its chi-square is made of
 };
 
 /// What a strapdown recording says of its sensors.

@@ -9,6 +9,7 @@
 #include "analysis/preparation/fillers.hpp"
 #include "analysis/preparation/gravity_check.hpp"
 #include "analysis/preparation/held_rows.hpp"
+#include "analysis/strapdown/checks/saturated.hpp"
 #include "analysis/strapdown/consumer_grade.hpp"
 #include "analysis/strapdown/dead_channels.hpp"
 #include "analysis/strapdown/gyro_unit.hpp"
@@ -189,9 +190,12 @@ preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& s
   return preparation::noise_card(recording, RecordingKind::strapdown, resting_rows(search));
 }
 
-void leave_out_not_measured(Recording& recording, std::vector<std::string>& remarks) {
+std::vector<Saturation> leave_out_not_measured(Recording& recording,
+                                               std::vector<std::string>& remarks) {
   preparation::leave_out_fillers_on_a_case(recording, remarks);
+  std::vector<Saturation> saturated = leave_out_saturated(recording);
   preparation::leave_out_stuck(recording, remarks);
+  return saturated;
 }
 
 CaseStudy case_study(const mc::Study& study, const Recording& given) {
@@ -200,14 +204,17 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
   CaseStudy out;
   Recording recording = given;
   number_rows(recording, recording.rows());
-  leave_out_not_measured(recording, out.remarks);
+  const std::vector<Saturation> saturated = leave_out_not_measured(recording, out.remarks);
   out.source = recording.source;
   out.static_min = study.static_min;
   const Signals signals = signals_of(recording);
   out.search = find_dwells(signals, {.static_min = study.static_min});
   if (out.search.dwells.empty())
     throw InputError(ExitCode::recording,
-                     fmt::format("{}: {}", out.source, why_no_dwell(signals, study.static_min)));
+                     fmt::format("{}: {}", out.source,
+                                 why_no_dwell(signals, study.static_min, out.search.longest_left)));
+  out.saturated = saturation_text(saturated, recording, out.search.dwells);
+  if (!out.saturated.empty()) out.remarks.insert(out.remarks.begin(), out.saturated);
   require_live_accelerometers(out.search.dwells, out.source);
   if (const std::string wrong =
           preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));

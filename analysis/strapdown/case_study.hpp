@@ -6,6 +6,7 @@
 #include "analysis/preparation/noise_card.hpp"
 #include "core/estimate/strapdown/gyrocompass.hpp"
 #include "core/physics/model_spec.hpp"
+#include "core/recording/saturation.hpp"
 #include "mc/study/study.hpp"
 
 namespace drift::strapdown {
@@ -14,7 +15,8 @@ namespace drift::strapdown {
 struct CaseStudy {
   std::string source;
   std::vector<std::string> remarks;  ///< what of the recording is left out, or looks wrong
-  double static_min = 0.0;           ///< shortest dwell that counts [s]
+  std::string saturated;    ///< of gyros at the end of their range, the first remark then; or ""
+  double static_min = 0.0;  ///< shortest dwell that counts [s]
   DwellSearch search;
   Gyrocompass compass;
   CaseTest test;
@@ -32,8 +34,10 @@ double drift_prior(const mc::Study& study);
 /// The noise of the sensors in the dwells.
 preparation::NoiseCard noise_of(const Recording& recording, const DwellSearch& search);
 
-/// Takes out what a logger writes where it has read nothing, and what a stuck sensor reads.
-void leave_out_not_measured(Recording& recording, std::vector<std::string>& remarks);
+/// Takes out what a logger writes where it has read nothing, and what a stuck sensor reads, or a
+/// gyro at the end of its range; the last comes back.
+std::vector<Saturation> leave_out_not_measured(Recording& recording,
+                                               std::vector<std::string>& remarks);
 
 /// Finds the dwells, levels and gyrocompasses, lays out. The prior of the gyros' fixed drift is
 /// that of the study's first filter. A unit whose gyros do not see the Earth is laid out one way at

@@ -38,7 +38,7 @@ struct Extremes {
 
 }  // namespace
 
-std::string why_no_dwell(const Signals& signals, double static_min) {
+std::string why_no_dwell(const Signals& signals, double static_min, double longest_quiet) {
   const std::string none = fmt::format(
       "no dwell of {} s in which both sensors are quiet (one or more is expected)", static_min);
   const double lasts = signals.time.back() - signals.time.front();
@@ -53,6 +53,14 @@ std::string why_no_dwell(const Signals& signals, double static_min) {
       if (const double s = longest_measured(signals, *sensor, a); s < static_min)
         dead.push_back(fmt::format("{}_{} ({:.3g} s at most)",
                                    sensor == &signals.gyro ? "gyro" : "acc", "xyz"[a], s));
+  if (dead.empty() && longest_quiet > 0.0 && longest_quiet < static_min) {
+    const double window = DwellOptions{}.window;
+    return fmt::format(
+        "{}: the longest quiet stretch lasts {:.3g} s, of a rest of about {:.3g} s, as quiet is "
+        "judged over {:g} s: a rest has to last {:.3g} s to be quiet for {:g} s. Rest the case for "
+        "longer, or lower plan.static_min",
+        none, longest_quiet, longest_quiet + window, window, static_min + window, static_min);
+  }
   if (dead.empty()) return none + ". Rest the case, or lower plan.static_min";
   return fmt::format(
       "{}: {} {} not measured without a break for so long, where what stands still or is at the "

@@ -10,7 +10,8 @@ namespace drift::strapdown {
 /// Why a recording has no dwell, and what to do: channels that are never measured for so long
 /// without a break (a stuck sensor is left out before), times that do not last so long, or a case
 /// that never rests.
-std::string why_no_dwell(const Signals& signals, double static_min);
+/// longest_quiet: of the stretches that are too short (DwellSearch) [s].
+std::string why_no_dwell(const Signals& signals, double static_min, double longest_quiet);
 
 /// InputError (recording) that names an accelerometer which does not follow gravity: over four
 /// rests or more it reads the same within 0.05 g while what the two others read together varies by

@@ -228,8 +228,9 @@ PlanConfig read_plan(Section section) {
     read_platform(section, config);
     refuse_keys(section, {"static_min", "accelerometers_in_turns"}, "kind = \"strapdown\"");
   } else {
-    section.read(Option{"static_min", unit::s, 1e-2, 1e5, "shortest dwell that counts"},
-                 config.static_min);
+    section.read(
+        Option{"static_min", unit::s, 1e-2, 1e5, "shortest time for which a dwell is quiet"},
+        config.static_min);
     section.read(Option{.key = "accelerometers_in_turns",
                         .doc = "what they read in turns counts, too: a turntable moves no origin"},
                  config.accelerometers_in_turns);

@@ -13,6 +13,15 @@ namespace {
 
 using Boosts = boost::math::chi_squared;
 constexpr double chance = 0.001;  // of a misfit that is believed
+/// Degrees of freedom are not counted beyond this: the interval of a variance is then within 3e-4
+/// of it. Of a ramp alone, which does not fluctuate, they are without bound, and quantiles of
+/// chi-square are no longer found from 1e12 on.
+constexpr double most_dof = 1e8;
+
+/// Of a variance that is expected, with the variance of its estimates; one at least.
+double degrees_of_freedom(double expected, double spread) {
+  return std::min(std::max(1.0, 2.0 * expected * expected / spread), most_dof);
+}
 
 std::size_t longest_of(std::span<const std::size_t> lengths) {
   DRIFT_DEMAND(!lengths.empty());
@@ -57,7 +66,7 @@ UnderNull as_if(const AllanProblem& problem, AllanSet set, int noise, const Alla
   Eigen::Index most = 0;
   (free.weights.row(noise).transpose().array() * sigma).maxCoeff(&most);
   const double expected = problem.slopes.row(most).dot(squares);
-  out.dof = std::max(1.0, 2.0 * expected * expected / covariance(most, most));
+  out.dof = degrees_of_freedom(expected, covariance(most, most));
   return out;
 }
 
@@ -221,7 +230,7 @@ AllanFit AllanFitter::fit(std::span<const Stretch> stretches,
     const double fitted =
         allan_slopes(static_cast<double>(counts_[i])).dot(chosen.estimate.squares);
     p.fitted = std::sqrt(fitted);
-    p.dof = std::max(1.0, 2.0 * fitted * fitted / spread[static_cast<Eigen::Index>(i)]);
+    p.dof = degrees_of_freedom(fitted, spread[static_cast<Eigen::Index>(i)]);
     const Boosts chi(p.dof);
     p.low = p.deviation * std::sqrt(p.dof / boost::math::quantile(chi, 0.975));
     p.high = p.deviation * std::sqrt(p.dof / boost::math::quantile(chi, 0.025));

@@ -13,4 +13,11 @@ Proportion proportion(std::size_t k, std::size_t n, double confidence) {
   return p;
 }
 
+double binomial_tail(std::size_t k, std::size_t n, double p) {
+  if (k == 0) return 1.0;
+  if (k > n || !(p > 0.0)) return 0.0;
+  if (p >= 1.0) return 1.0;
+  return boost::math::ibeta(static_cast<double>(k), static_cast<double>(n - k) + 1.0, p);
+}
+
 }  // namespace drift::stats

@@ -50,4 +50,7 @@ struct Proportion {
 };
 Proportion proportion(std::size_t k, std::size_t n, double confidence = 0.95);
 
+/// P(X >= k), X binomial of n trials with probability p each.
+double binomial_tail(std::size_t k, std::size_t n, double p);
+
 }  // namespace drift::stats

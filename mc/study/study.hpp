@@ -57,8 +57,8 @@ struct Study {
   std::string title;
   Site site;
   RecordingKind kind = RecordingKind::platform;
-  TestPlan plan;                         ///< of a platform test
-  double static_min = 2.0;               ///< strapdown: shortest dwell that counts [s]
+  TestPlan plan;            ///< of a platform test
+  double static_min = 2.0;  ///< strapdown: shortest dwell that counts, as DwellOptions has it [s]
   bool accelerometers_in_turns = false;  ///< strapdown: what they read in turns counts, too
   Readout readout;
   RecordingFormat recording;  ///< how files are read that do not have the canonical columns

@@ -14,6 +14,7 @@
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
 #include "analysis/strapdown/case_study.hpp"
+#include "analysis/strapdown/checks/saturated.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/words.hpp"
 #include "core/estimate/strapdown/dwells.hpp"
@@ -84,15 +85,16 @@ void show_positions(const Recording& r) {
 }
 
 void show_dwells(const strapdown::DwellSearch& search, double static_min) {
-  show("\n{} dwells of at least {:g} s\n", search.dwells.size(), static_min);
+  show("\n{} dwells: quiet for at least {:g} s, {:g} s of which are left out at their ends\n",
+       search.dwells.size(), static_min, strapdown::DwellOptions{}.window);
   if (search.dwells.empty()) return;
-  show("{:>12}{:>10}{:>12}{:>12}{:>12}{:>10}\n", "from [s]", "for [s]", "acc_x [g]", "acc_y [g]",
-       "acc_z [g]", "|f| [g]");
+  show("{:>12}{:>11}{:>10}{:>12}{:>12}{:>12}{:>10}\n", "from [s]", "quiet [s]", "for [s]",
+       "acc_x [g]", "acc_y [g]", "acc_z [g]", "|f| [g]");
   constexpr std::size_t most = 30;
   for (std::size_t i = 0; i < std::min(most, search.dwells.size()); ++i) {
     const strapdown::Dwell& d = search.dwells[i];
-    show("{:>12.6g}{:>10.4g}{:>12.6f}{:>12.6f}{:>12.6f}{:>10.6f}\n", d.start, d.duration(),
-         d.acc.x(), d.acc.y(), d.acc.z(), d.acc.norm());
+    show("{:>12.6g}{:>11.4g}{:>10.4g}{:>12.6f}{:>12.6f}{:>12.6f}{:>10.6f}\n", d.start, d.quiet,
+         d.duration(), d.acc.x(), d.acc.y(), d.acc.z(), d.acc.norm());
   }
   if (search.dwells.size() > most) show("and {} more\n", search.dwells.size() - most);
 }
@@ -137,8 +139,12 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
          std::abs(*f - 1.0) < 0.02 ? "" : ": check their units, or was the case moving?");
   preparation::NoiseCard card;
   if (kind == RecordingKind::strapdown) {
+    Recording measured = r;
+    const std::vector<Saturation> saturated = strapdown::leave_out_saturated(measured);
     const auto search =
-        strapdown::find_dwells(strapdown::signals_of(r), {.static_min = static_min});
+        strapdown::find_dwells(strapdown::signals_of(measured), {.static_min = static_min});
+    for (const Saturation& s : saturated)
+      show("! {}\n", strapdown::saturated_turns_text(s, r, search.dwells));
     show_dwells(search, static_min);
     card = strapdown::noise_of(r, search);
   } else {

@@ -120,6 +120,8 @@ LookedAt look_at(const std::string& path, RecordingKind kind) {
 /// Where it was made: what stands above the header goes before facts, which nobody looked at.
 RecordedSite site_of(const LookedAt& seen, const std::string& path) {
   RecordedSite site = seen.recording ? recorded_site(*seen.recording) : RecordedSite();
+  const Channel* acc = seen.recording ? seen.recording->find("acc_x") : nullptr;
+  site.divides = acc != nullptr && acc->unit.symbol.view().find("/s") != std::string_view::npos;
   const auto take = [&](const std::optional<PreambleValue>& above,
                         std::optional<std::string>& value, std::string& place) {
     if (!above) return;

@@ -50,6 +50,7 @@ RecordedPlan plan_to_come(std::size_t positions);
 struct RecordedSite {
   std::optional<std::string> latitude, gravity;
   std::string latitude_place{}, gravity_place{};  ///< "'log.txt':3"; empty: a fact
+  bool divides = false;  ///< gravity: the accelerometers of the recording are in m/s^2
 };
 RecordedSite recorded_site(const Recording& recording);
 

@@ -150,9 +150,12 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
       title_of(kind), quoted(site.latitude.value_or(std::string(guessed_latitude))),
       site.latitude ? from(site.latitude_place) : ": check",
       quoted(site.gravity.value_or("9.80665 m/s^2")), site.gravity ? from(site.gravity_place) : "");
+  const bool divides = site.divides || mapping.find("m/s^2") != std::string::npos;
+  text += (site.gravity || !divides ? ": " : ": check; ") +
+          std::string("a recording in m/s^2 is divided by it, and K1 is off by as many ppm\n");
   if (kind == StudyKind::strapdown)
     text +=
-        "\n\n[plan]\nkind       = \"strapdown\"\nstatic_min = \"2 s\"        # the shortest rest "
+        "\n[plan]\nkind       = \"strapdown\"\nstatic_min = \"2 s\"        # the shortest rest "
         "that counts\n"
         "# On a table with fixed axes (not moved by hand), gyros that see the Earth: "
         "accelerometers\n"
@@ -160,8 +163,6 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
         "# accelerometers_in_turns = true\n";
   else
     text +=
-        (site.gravity || mapping.find("m/s^2") == std::string::npos ? ": " : ": check; ") +
-        std::string("a recording in m/s^2 is divided by it, and K1 is off by as many ppm\n") +
         plan_text(plan, kind == StudyKind::sweep ? Dwells::alike : Dwells::as_recorded) +
         "\n[readout]\n" +
         (plan && !plan->noise.empty()

@@ -35,6 +35,10 @@ struct Input {
 struct GimbalOffZero {
   std::string text;
 };
+/// A gyro on a case at the end of its range, said where it was read.
+struct SaturatedGyro {
+  std::string text;
+};
 /// Recordings state a loop that removed misalignments, and the nominal model has another coupling.
 struct LoopLeftOut {
   identification::StatedLoop loop;
@@ -185,14 +189,16 @@ struct NotObservable {
 
 }  // namespace remark
 
-using Remark = std::variant<
-    remark::Input, remark::GimbalOffZero, remark::LoopLeftOut, remark::JustSignificantLeft,
-    remark::LambdaNotSettled, remark::MemberNotConfirmed, remark::NotPredicted, remark::OrNoise,
-    remark::LikelierMissing, remark::SamplesLeftOut, remark::FreeInputExplains,
-    remark::PeriodExplains, remark::LeftNotWhite, remark::CrosstalkMovesLambda,
-    remark::DrivesOneGyro, remark::IncredibleNoise, remark::StrongestLeft, remark::BeyondPrior,
-    remark::OtherPriors, remark::OtherEquation, remark::MemoryOff, remark::TimesInstead,
-    remark::DelayInstead, remark::FieldAssumed, remark::NoiseOrEffect, remark::NoAdvice,
-    remark::NoDeclaredNoise, remark::CommonDriftUnseen, remark::NotObservable>;
+using Remark =
+    std::variant<remark::Input, remark::GimbalOffZero, remark::SaturatedGyro, remark::LoopLeftOut,
+                 remark::JustSignificantLeft, remark::LambdaNotSettled, remark::MemberNotConfirmed,
+                 remark::NotPredicted, remark::OrNoise, remark::LikelierMissing,
+                 remark::SamplesLeftOut, remark::FreeInputExplains, remark::PeriodExplains,
+                 remark::LeftNotWhite, remark::CrosstalkMovesLambda, remark::DrivesOneGyro,
+                 remark::IncredibleNoise, remark::StrongestLeft, remark::BeyondPrior,
+                 remark::OtherPriors, remark::OtherEquation, remark::MemoryOff,
+                 remark::TimesInstead, remark::DelayInstead, remark::FieldAssumed,
+                 remark::NoiseOrEffect, remark::NoAdvice, remark::NoDeclaredNoise,
+                 remark::CommonDriftUnseen, remark::NotObservable>;
 
 }  // namespace drift::diagnosis

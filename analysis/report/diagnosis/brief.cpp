@@ -261,7 +261,9 @@ InBrief diagnosis_in_brief(const Diagnosis& d) {
   }
   bool off_zero = false;
   for (const Remark& r : d.remarks)
-    if (const auto* gimbal = std::get_if<remark::GimbalOffZero>(&r)) {
+    if (const auto* gyro = std::get_if<remark::SaturatedGyro>(&r))
+      add(Weight::wrong, "Range", gyro->text + ".");
+    else if (const auto* gimbal = std::get_if<remark::GimbalOffZero>(&r)) {
       add(Weight::wrong, "Gimbals", gimbal->text + ".");
       off_zero = true;
     }

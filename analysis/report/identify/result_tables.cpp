@@ -42,19 +42,8 @@ std::string estimates_csv(const std::vector<NamedResult>& results,
 }
 
 std::string covariance_csv(const std::vector<NamedResult>& results) {
-  std::string out =
-      "filter,coupling,start,estimator,parameter,parameter_2,unit,unit_2,covariance,correlation\n";
-  for (const NamedResult& r : results) {
-    const auto& parameters = r.result.parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k)
-      for (std::size_t l = k; l < parameters.size(); ++l) {
-        const double c = r.covariance(k, l);
-        out += fmt::format("{},{},{},{},{}{}{}\n", head_of(r), parameter_key(parameters[k].param),
-                           parameter_key(parameters[l].param), parameter_unit(parameters[k].param),
-                           parameter_unit(parameters[l].param), cell(c),
-                           cell(c / std::sqrt(r.covariance(k, k) * r.covariance(l, l))));
-      }
-  }
+  std::string out(covariance_header);
+  for (const NamedResult& r : results) out += covariance_rows(head_of(r), r.result);
   return out;
 }
 
@@ -92,11 +81,30 @@ const char* status_key(EstimateStatus status) {
   return "ok";
 }
 
-double NamedResult::covariance(std::size_t k, std::size_t l) const {
+double covariance_of(const EstimateResult& result, std::size_t k, std::size_t l) {
   if (result.covariance.size() == 0) return nan_value;  // it failed before there was one
   const ParameterEstimate &a = result.parameters[k], &b = result.parameters[l];
   return result.covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) *
          (a.prior_sigma / unit_of(a.param)) * (b.prior_sigma / unit_of(b.param));
+}
+
+std::string covariance_rows(const std::string& head, const EstimateResult& result) {
+  std::string out;
+  const auto& parameters = result.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    for (std::size_t l = k; l < parameters.size(); ++l) {
+      const double c = covariance_of(result, k, l);
+      out += fmt::format(
+          "{},{},{},{},{}{}{}\n", head, parameter_key(parameters[k].param),
+          parameter_key(parameters[l].param), parameter_unit(parameters[k].param),
+          parameter_unit(parameters[l].param), cell(c),
+          cell(c / std::sqrt(covariance_of(result, k, k) * covariance_of(result, l, l))));
+    }
+  return out;
+}
+
+double NamedResult::covariance(std::size_t k, std::size_t l) const {
+  return covariance_of(result, k, l);
 }
 
 std::vector<NamedResult> named_results(const identification::Identification& id) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/identification/identify.hpp"
@@ -33,6 +34,14 @@ inline constexpr const char* channel_names[] = {"acc_x",        "acc_y",        
 /// Measured minus predicted of sample i by the batch fit, over 1 sigma of the noise; NaN where
 /// nothing was measured.
 std::vector<double> whitened_residuals(const identification::FilterRun& run, std::size_t i);
+
+/// The first line of covariance.csv.
+inline constexpr std::string_view covariance_header =
+    "filter,coupling,start,estimator,parameter,parameter_2,unit,unit_2,covariance,correlation\n";
+/// Its rows of one result, each pair once; head: what stands in the first four columns.
+std::string covariance_rows(const std::string& head, const EstimateResult& result);
+/// Covariance of its parameters k and l, in their units.
+double covariance_of(const EstimateResult& result, std::size_t k, std::size_t l);
 
 /// An identification as tables, a row for each
 ///   estimates.csv    filter, start, estimator, parameter

@@ -6,6 +6,7 @@
 #include "analysis/report/identify/latitude_words.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/strapdown/case_report.hpp"
+#include "analysis/report/strapdown/case_words.hpp"
 
 namespace drift::report {
 
@@ -41,6 +42,15 @@ json to_json(const CaseFit& fit) {
            {"converged", fit.fit.estimate.status == EstimateStatus::ok},
            {"parameters", std::move(parameters)},
            {"unobservable", std::move(unobservable)}};
+  json instruments = json::array();
+  for (const auto& one : fit.instruments)
+    instruments.push_back({{"instrument", instrument_name(one.of)},
+                           {"chi2_per_dof", one.per_dof()},
+                           {"dof", one.dof},
+                           {"chance", one.chance()},
+                           {"too_large", too_large(one, fit.instruments)},
+                           {"sigmas_too_small_by", one.factor()}});
+  out["instruments"] = std::move(instruments);
   if (fit.up.count > 0) out["rotations"] = to_json(fit.up, "deg");
   if (fit.gyro.count > 0) out["dwells"] = to_json(fit.gyro, "deg/h");
   if (fit.gravity.count > 0) out["gravity"] = to_json(fit.gravity, "g");
@@ -68,6 +78,15 @@ json dwells_json(const CaseIdentification& id) {
           {"list", std::move(list)}};
 }
 
+/// Of an axis of the case in the first dwell, clockwise from North as seen from above.
+json azimuth_json(const CaseIdentification& id) {
+  const strapdown::AxisHeading heading = first_heading(id);
+  return {{"axis", std::string(1, "xyz"[heading.axis])},
+          {"from_north_to_east_deg", heading.azimuth / unit::deg.to_si},
+          {"sigma_deg", id.study.compass.sigma / unit::deg.to_si},
+          {"at_s", id.study.search.dwells.front().start}};
+}
+
 }  // namespace
 
 json to_json(const CaseIdentification& id, double gravity) {
@@ -83,11 +102,13 @@ json to_json(const CaseIdentification& id, double gravity) {
       {"schema", 1},
       {"kind", "strapdown"},
       {"recording", id.study.source},
+      {"remarks", id.study.remarks},
       {"dwells", dwells_json(id)},
       {"rotations",
        {{"count", id.study.test.ways.size()}, {"omitted", id.study.test.ways_with_gap}}},
       {"earth_seen", earth},
       {"azimuth_sigma_deg", earth ? json(id.study.compass.sigma / unit::deg.to_si) : json(nullptr)},
+      {"azimuth", earth ? azimuth_json(id) : json(nullptr)},
       {"latitude_doubt", latitude_json(id.latitude)},
       {"folds", id.division.folds},
       {"repeats", id.division.repeats},

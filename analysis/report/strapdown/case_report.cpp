@@ -1,18 +1,18 @@
 #include "analysis/report/strapdown/case_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <utility>
 
-#include "analysis/report/identify/latitude_words.hpp"
+#include "analysis/report/identify/results_out.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/json.hpp"
 #include "analysis/report/page/wording.hpp"
-#include "analysis/report/strapdown/case_misfit.hpp"
+#include "analysis/report/strapdown/case_words.hpp"
+#include "analysis/strapdown/sensed.hpp"
 #include "core/base/words.hpp"
 #include "mc/study/own_terms_check.hpp"
 
@@ -22,26 +22,10 @@ using strapdown::CaseFit;
 using strapdown::CaseIdentification;
 
 DRIFT_SECTIONS(CaseIdentification, case_sections, (case_test, details), (case_parameters, evidence),
-               (case_unobservable, how_sure), (case_held_out, how_sure), (case_noise, how_sure));
+               (case_unobservable, how_sure), (case_instruments, how_sure),
+               (case_held_out, how_sure), (case_noise, how_sure));
 
 namespace {
-
-std::string up_of(const strapdown::Dwell& dwell) {
-  const Vec3 up = dwell.acc.normalized();
-  return fmt::format("x {:.3f} y {:.3f} z {:.3f} deg above the horizon",
-                     std::asin(up[0]) / unit::deg.to_si, std::asin(up[1]) / unit::deg.to_si,
-                     std::asin(up[2]) / unit::deg.to_si);
-}
-
-/// What is said of North.
-std::string azimuth_sentence(const CaseIdentification& id) {
-  if (!id.study.compass.sees_earth)
-    return "The gyros do not see the Earth: of every turn it is told where up is before and after "
-           "it, and North is not known";
-  return fmt::format(
-      "The gyros see the Earth: North to {} deg (1 sigma), its rate taken from the latitude",
-      number_text(id.study.compass.sigma / unit::deg.to_si, 2));
-}
 
 std::string estimates_csv(const CaseIdentification& id) {
   std::string out = "filter,parameter,unit,estimate,sigma,note\n";
@@ -49,6 +33,18 @@ std::string estimates_csv(const CaseIdentification& id) {
     for (const auto& p : fit.parameters)
       out += fmt::format("{},{},{},{},{},{}\n", csv_field(fit.name), csv_field(p.key),
                          csv_field(p.unit), p.value, p.sigma, csv_field(p.note));
+  return out;
+}
+
+/// Of all parameters of each filter, as the sensors have them.
+std::string covariance_csv(const CaseIdentification& id) {
+  std::string out(covariance_header);
+  for (const CaseFit& fit : id.fits) {
+    EstimateResult sensed = strapdown::as_sensed(fit.fit.estimate);
+    if (!id.study.compass.sees_earth) sensed = strapdown::without_common_drift(std::move(sensed));
+    out += covariance_rows(fmt::format("{},{},1,batch", csv_field(fit.name), key_of(fit.equation)),
+                           sensed);
+  }
   return out;
 }
 
@@ -78,99 +74,6 @@ std::string rest_sentence(const CaseIdentification& id) {
       "others, "
       "or its halves differ): there the gyros carry the attitude and gravity alone is measured",
       held);
-}
-
-/// "x", or "x and y and 3 more".
-std::string some_of(const std::vector<std::string>& all) {
-  constexpr std::size_t most = 6;
-  if (all.size() <= most) return fmt::format("{}", fmt::join(all, ", "));
-  return fmt::format("{} and {} more", fmt::join(all.begin(), all.begin() + most, ", "),
-                     all.size() - most);
-}
-
-std::string counted(std::size_t n, std::string_view what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
-std::string contest_sentence(const CaseIdentification& id) {
-  std::vector<std::string> errors;
-  for (const CaseFit& fit : id.fits)
-    errors.push_back(fmt::format("eq. ({}) {} deg", facts(fit.equation).number,
-                                 number_text(fit.up.held_out, 4)));
-  return fmt::format("Held-out turns: {} ({:.1f} standard errors in favour of eq. ({}))",
-                     fmt::join(errors, ", "), std::abs(id.eq5_gain), id.eq5_gain > 0.0 ? 5 : 6);
-}
-
-/// Of the filter without what was held out; of data that no fit could predict nothing.
-std::string errors_sentence(const CaseFit& fit) {
-  const bool up = fit.up.count > 0 && std::isfinite(fit.up.held_out),
-             gyro = fit.up.count > 0 && std::isfinite(fit.gyro.held_out);
-  return fmt::format("{}{}{}",
-                     up ? fmt::format("Up after a turn that was held out: {} deg off",
-                                      number_text(fit.up.held_out, 3))
-                        : "",
-                     gyro ? fmt::format("{}yros in dwells held out: {} deg/h", up ? "; g" : "G",
-                                        number_text(fit.gyro.held_out, 3))
-                          : "",
-                     up || gyro ? "." : "");
-}
-
-/// " (16 more are left out for gaps)"; empty: none is.
-std::string gaps_text(const strapdown::CaseStudy& s) {
-  const std::size_t n = s.test.ways_with_gap;
-  return n == 0 ? "" : fmt::format(" ({} more {} left out for gaps)", n, n == 1 ? "is" : "are");
-}
-
-InBrief in_brief(const CaseIdentification& id) {
-  const CaseFit& first = id.fits.front();
-  const EstimateResult& estimate = first.fit.estimate;
-  const std::size_t all = estimate.parameters.size();
-  const auto alone = static_cast<std::size_t>(std::ranges::count_if(
-      first.parameters, [](const auto& p) { return TermLibrary::find(p.key).has_value(); }));
-  const std::size_t sums = first.parameters.size() - alone;
-  const std::string told =
-      fmt::format("{} of {} parameters {} learned{}", alone, all, alone == 1 ? "is" : "are",
-                  sums > 0 ? fmt::format(", and {} of others", counted(sums, "sum")) : "");
-  const auto& dwells = id.study.search.dwells;
-  const bool at_rest = dwells.size() == 1;
-  InBrief brief;
-  const std::string fits = fmt::format("chi-square per degree of freedom {}",
-                                       number_text(estimate.statistic_per_dof(), 3));
-  const CaseMisfit misfit = misfit_of(id);
-  if (id.latitude)
-    brief.verdict = fmt::format(
-        "Wrong latitude{}: the gyros at rest see the Earth as it turns at {}, not at {:.3f} deg; "
-        "there chi-square per degree of freedom is {} instead of {}. Correct it first.{}",
-        id.latitude->alone() ? "" : " and more", latitude_text(*id.latitude),
-        id.latitude->declared / unit::deg.to_si, number_text(id.latitude->chi2_per_dof_after, 3),
-        number_text(id.latitude->chi2_per_dof_before, 3), upside_down_text(*id.latitude));
-  else if (misfit != CaseMisfit::none)
-    brief.verdict = case_misfit_text(id, misfit);
-  else if (at_rest)
-    brief.verdict = fmt::format("Found: one rest of {:.0f} s and no turn; {}.",
-                                dwells.front().duration(), told);
-  else
-    brief.verdict =
-        fmt::format("Found: {} and {}{}; {}, {}.", counted(dwells.size(), "dwell"),
-                    counted(id.study.test.ways.size(), "turn"), gaps_text(id.study), told, fits);
-  const auto gravity = gravity_off(id);
-  brief.tone = id.latitude || misfit == CaseMisfit::of_model || misfit == CaseMisfit::of_gravity
-                   ? Tone::bad
-               : gravity || misfit == CaseMisfit::of_priors ? Tone::doubtful
-                                                            : Tone::good;
-  if (gravity) brief.more.add(Weight::wrong, "Gravity: " + common_scale_text(*gravity));
-  brief.more.add(Weight::note, azimuth_sentence(id) + ".");
-  if (at_rest) brief.more.add(Weight::note, "Up is " + up_of(dwells.front()) + ".");
-  if (std::isfinite(id.eq5_gain)) brief.more.add(Weight::note, contest_sentence(id) + ".");
-  if (const std::string errors = errors_sentence(first); !errors.empty())
-    brief.more.add(Weight::note, errors);
-  std::vector<std::string> unseen;
-  for (const auto& u : first.unobservable) unseen.push_back(u.what);
-  if (!unseen.empty())
-    brief.more.add(Weight::note,
-                   fmt::format("Alone this recording shows little of {}.", some_of(unseen)));
-  brief.next = case_next(id, misfit);
-  return brief;
 }
 
 }  // namespace
@@ -218,6 +121,23 @@ Section case_unobservable(const CaseIdentification& id) {
   return section;
 }
 
+Section case_instruments(const CaseIdentification& id) {
+  Section section{"Chi-square by instrument", {}};
+  Table t(
+      "Of what each fit leaves: gravity and gyros by dwell, up in dwells as turns carry it",
+      "<filter | <instrument | chi-square per degree of freedom | degrees | chance of so much | "
+      "sigmas too small by");
+  for (const CaseFit& fit : id.fits)
+    for (const auto& one : fit.instruments) {
+      const bool large = too_large(one, fit.instruments);
+      t.add({fit.name, instrument_name(one.of),
+             digits(one.per_dof(), 3, large ? Tone::doubtful : Tone::plain), digits(one.dof, 3),
+             p_cell(one.chance()), large ? digits(one.factor(), 2) : Cell("-")});
+    }
+  if (!id.fits.empty() && !id.fits.front().instruments.empty()) section.blocks.emplace_back(t);
+  return section;
+}
+
 Section case_held_out(const CaseIdentification& id) {
   if (id.division.folds == 0) return {};
   Table t(fmt::format(
@@ -246,13 +166,14 @@ Report case_report(const mc::Study& study, const CaseIdentification& id) {
   Report report{.command = "identify"};
   report.title = study.title.empty() ? "Strapdown recording" : study.title;
   report.subtitle = fmt::format("Strapdown recording {}", id.study.source);
-  report.brief = in_brief(id);
+  report.brief = case_in_brief(id);
   report.add(sections_of(id, case_sections));
   Json document = to_json(id, study.site.gravity);
   add_tables(document, report.sections);
   report.document = {"identification.json", document.dump(2) + "\n"};
   report.files.emplace_back("study.toml", study.text);
   report.files.emplace_back("estimates.csv", estimates_csv(id));
+  report.files.emplace_back("covariance.csv", covariance_csv(id));
   return report;
 }
 

@@ -9,7 +9,7 @@
 namespace drift::report {
 
 /// All that the identification of a strapdown recording has to say: tables, identification.json,
-/// estimates.csv and study.toml. InputError (config) as mc::require_own_terms().
+/// estimates.csv, covariance.csv and study.toml. InputError (config) as mc::require_own_terms().
 Report case_report(const mc::Study& study, const strapdown::CaseIdentification& id);
 
 /// identification.json, schema 1. A number that is not finite is null.

@@ -32,13 +32,6 @@ bool without_gap(const Signals& s, std::size_t first, std::size_t last) {
   return true;
 }
 
-/// The attitude of least turn from the local axes that has `f_c` up.
-Mat3 levelled(const Vec3& f_c, double azimuth) {
-  const Vec3 up_c = f_c.normalized();
-  const Mat3 least = Eigen::Quaterniond::FromTwoVectors(up_c, up_l).toRotationMatrix();
-  return case_attitude(azimuth) * least;
-}
-
 /// Scatter of rows from one to the next of their dwell: what drifts slowly is not noise.
 struct Scatter {
   double squares = 0.0, dof = 0.0;
@@ -273,6 +266,12 @@ class Layout {
 };
 
 }  // namespace
+
+Mat3 levelled(const Vec3& f_c, double azimuth) {
+  const Vec3 up_c = f_c.normalized();
+  const Mat3 least = Eigen::Quaterniond::FromTwoVectors(up_c, up_l).toRotationMatrix();
+  return case_attitude(azimuth) * least;
+}
 
 CaseTest lay_out_case(const Signals& signals, const std::vector<Dwell>& dwells, const Site& site,
                       Carry carry, const std::vector<double>& azimuth, InTurns in_turns) {

@@ -62,6 +62,10 @@ inline constexpr double largest_change = 0.1;
 /// may be so many times longer until then.
 inline constexpr double longer_while_speeding_up = 3.0;
 
+/// The attitude of least turn from the local axes that has `f_c` up, turned about Up by an azimuth
+/// from North to West [rad].
+Mat3 levelled(const Vec3& f_c, double azimuth);
+
 /// How far attitude is carried along.
 enum class Carry {
   through,  ///< from way to way, until one has a gap: azimuth is worth carrying

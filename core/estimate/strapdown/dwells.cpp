@@ -152,7 +152,7 @@ DwellSearch find_dwells(const Signals& signals, const DwellOptions& options) {
       std::max(1.0, std::round(below_a_tie * 0.5 * options.window / signals.interval)));
   const Spread spread = spreads(signals, half);
   const Split gyro = split(spread.gyro), acc = split(spread.acc);
-  DwellSearch found{{}, gyro.floor, acc.floor, gyro.threshold, acc.threshold};
+  DwellSearch found{{}, gyro.floor, acc.floor, gyro.threshold, acc.threshold, 0.0};
   const auto quiet = [&](std::size_t k) {
     return spread.gyro[k] < gyro.threshold && spread.acc[k] < acc.threshold;
   };
@@ -161,10 +161,14 @@ DwellSearch find_dwells(const Signals& signals, const DwellOptions& options) {
     const std::size_t first = k;
     while (k + 1 < signals.size() && quiet(k + 1)) ++k;
     const Run core = core_of(spread, first, k);
-    if (core.first > core.last || core.last - core.first < 2 * half + 2 ||
-        signals.time[core.last] - signals.time[core.first] < options.static_min)
+    if (core.first > core.last) continue;
+    const double quiet_for = signals.time[core.last] - signals.time[core.first];
+    if (core.last - core.first < 2 * half + 2 || quiet_for < options.static_min) {
+      found.longest_left = std::max(found.longest_left, quiet_for);
       continue;
+    }
     found.dwells.push_back(summary(signals, core.first + half, core.last - half));
+    found.dwells.back().quiet = quiet_for;
   }
   drop_steady_turns(found.dwells, std::max(gyro.threshold, slowest_turn));
   return found;

@@ -11,6 +11,7 @@ namespace drift::strapdown {
 struct Dwell {
   std::size_t first = 0, last = 0;  ///< samples first..last, both included
   double start = 0.0, end = 0.0;    ///< [s]
+  double quiet = 0.0;               ///< of the whole quiet stretch, its ends too [s]
   Vec3 gyro = Vec3::Zero();         ///< mean gyro output [rad/s]
   Vec3 acc = Vec3::Zero();          ///< mean accelerometer output [g]
   Vec3 gyro_noise = Vec3::Zero();   ///< standard deviation of one sample [rad/s]
@@ -21,7 +22,7 @@ struct Dwell {
 
 /// How dwells are looked for.
 struct DwellOptions {
-  double static_min = 2.0;  ///< shortest dwell that counts [s]
+  double static_min = 2.0;  ///< shortest quiet stretch that counts (Dwell::quiet) [s]
   double window = 0.5;      ///< length over which quiet is judged [s]
 };
 
@@ -30,9 +31,12 @@ struct DwellSearch {
   std::vector<Dwell> dwells;
   double gyro_floor = 0.0, acc_floor = 0.0;          ///< spread at rest [rad/s], [g]
   double gyro_threshold = 0.0, acc_threshold = 0.0;  ///< quiet is below both [rad/s], [g]
+  double longest_left = 0.0;  ///< of the quiet stretches that are too short [s]
 };
 
-/// Finds the stretches of at least `static_min` in which both sensors are quiet.
+/// Finds the stretches of at least `static_min` in which both sensors are quiet. A rest is quiet
+/// for a window less than it lasts, half a one at either end; what is kept of it as a dwell is
+/// another window shorter.
 ///
 /// The spread of a sensor is the root of the summed variances of its axes over a window. Its
 /// threshold splits the logarithms of the spreads of all windows into two classes of the greatest

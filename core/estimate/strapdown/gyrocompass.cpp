@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/decompose.hpp"
 
@@ -76,6 +77,16 @@ bool prior_moves_north(const Rests::Solution& with, const Rests::Solution& witho
 }
 
 }  // namespace
+
+AxisHeading axis_heading(const Vec3& acc, double azimuth) {
+  const Mat3 R_lc = levelled(acc, azimuth);
+  AxisHeading out;
+  while (std::abs(R_lc(2, out.axis)) > std::sqrt(0.5)) ++out.axis;  // one of them at most
+  const double to_west = std::atan2(R_lc(1, out.axis), R_lc(0, out.axis));
+  constexpr double whole = 2.0 * std::numbers::pi;
+  out.azimuth = std::fmod(whole - to_west, whole);
+  return out;
+}
 
 Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
                         double sigma_drift) {

@@ -13,6 +13,16 @@ struct Gyrocompass {
   double sigma = 1.0;           ///< 1 standard deviation of the worst [rad]; 1 where it is unknown
 };
 
+/// Where an axis of the case points.
+struct AxisHeading {
+  int axis = 0;          ///< x, y, z: the first of the case's that is within 45 deg of the horizon
+  double azimuth = 0.0;  ///< of its horizontal part, from North to East about Up, 0 to 2 pi [rad]
+};
+
+/// Of a case that was levelled by what its accelerometers read, at an azimuth as Gyrocompass has
+/// it (from North to West).
+AxisHeading axis_heading(const Vec3& acc, double azimuth);
+
 /// Sum of the Earth's rate and a fixed drift of each gyro, least squares on the dwells: the Earth's
 /// horizontal rate of each chain (two numbers; the vertical is the latitude's) and the drift, with
 /// the prior `sigma_drift` of each axis [rad/s]. Attitudes are those of the laid out test.

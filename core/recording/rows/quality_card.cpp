@@ -93,7 +93,6 @@ ChannelQuality look_at_channel(const Channel& c, const Recording& r, RecordingKi
         q.stuck = end - i;
         q.stuck_line = r.lines[i];
       }
-      if (end - i >= 3 && (x == low || x == high)) ++q.saturated;
     }
     i = end;
   }
@@ -107,8 +106,11 @@ bool is_sensor(const ChannelQuality& q) {
 }
 
 /// What looks broken.
-void remark_channels(QualityCard& card) {
+void remark_channels(const Recording& r, QualityCard& card) {
   for (const auto& q : card.channels) {
+    const bool said = std::ranges::any_of(q.standing, [&](const Saturation& s) {
+      return std::ranges::any_of(s.rows, [&](std::size_t k) { return r.lines[k] == q.stuck_line; });
+    });
     if (q.measured == 0)
       card.remarks.add(Weight::wrong, q.name + ": nothing was measured");
     else if (is_sensor(q) && q.stuck >= 3 && q.step > 0.0)
@@ -118,14 +120,31 @@ void remark_channels(QualityCard& card) {
               "{0}: its readings are steps of {1:.3g} {2} (identical for up to {3} samples): "
               "a noise of less than {4:.2g} {2} is not in them",
               q.name, q.step, q.unit, q.stuck, q.step / std::sqrt(12.0)));
-    else if (is_sensor(q) && q.stuck >= 20)
+    else if (is_sensor(q) && q.stuck >= 20 && !said)
       card.remarks.add(Weight::wrong,
                        fmt::format("{}: {} identical samples from line {} on: a stuck sensor?",
                                    q.name, q.stuck, q.stuck_line));
-    else if (is_sensor(q) && q.saturated > 0 && q.max > q.min)
-      card.remarks.add(Weight::doubtful,
-                       fmt::format("{}: {} runs at its extreme: saturated?", q.name, q.saturated));
   }
+}
+
+/// What a sensor at the end of its range reads, or one that hangs while it turns.
+void remark_saturated(const Recording& r, QualityCard& card) {
+  for (const auto& q : card.channels)
+    for (const Saturation& s : q.standing) {
+      const Unit& unit = r.find(q.name)->unit;
+      const std::size_t runs = s.runs();
+      card.remarks.add(
+          Weight::wrong,
+          fmt::format("{}: {} rows in {} run{} read {:.5g} {}, {}, which noise does not give so "
+                      "often, the first in line {}: {}",
+                      q.name, s.rows.size(), runs, runs == 1 ? "" : "s", in_unit(s.value, unit),
+                      q.unit,
+                      s.at == Saturation::At::low    ? "its least"
+                      : s.at == Saturation::At::high ? "its greatest"
+                                                     : "while it turns",
+                      r.lines[s.rows.front()],
+                      s.at == Saturation::At::between ? "stuck, or saturated?" : "saturated"));
+    }
 }
 
 /// A temperature that is called degC and would be one of a room, or of a chamber, in degF. Beside a
@@ -196,6 +215,12 @@ std::string gap_text(const std::vector<Gap>& gaps) {
 
 }  // namespace
 
+std::size_t ChannelQuality::saturated() const {
+  std::size_t n = 0;
+  for (const Saturation& s : standing) n += s.at != Saturation::At::between ? s.runs() : 0;
+  return n;
+}
+
 QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   QualityCard card;
   card.file = recording.source;
@@ -210,14 +235,18 @@ QualityCard quality_card(const Recording& recording, RecordingKind kind) {
   look_at_time(recording, card);
   for (const auto& c : recording.channels)
     if (c.name != "time") card.channels.push_back(look_at_channel(c, recording, kind));
+  const auto sensors = static_cast<std::size_t>(std::ranges::count_if(card.channels, is_sensor));
+  for (ChannelQuality& q : card.channels)
+    if (is_sensor(q)) q.standing = saturations(recording, *recording.find(q.name), sensors);
   // A platform's gimbals are not read while it slews, which is no loss.
   if (kind == RecordingKind::strapdown)
     for (const ChannelQuality& q : card.channels)
       if (is_sensor(q) && q.measured > 0) card.empty += q.missing;
   // In the order of harm, which those of one weight keep.
+  remark_saturated(recording, card);
   remark_repeats(recording, card);
   remark_gaps(card);
-  remark_channels(card);
+  remark_channels(recording, card);
   ask_about_fahrenheit(card);
   card.remarks.add(recording.remarks);
   remark_absent(recording, kind, card);
@@ -244,11 +273,11 @@ std::string to_text(const QualityCard& card) {
   for (const auto& q : card.channels)
     out += fmt::format("{:<16}{:<10}{:>12}{:>12}{:>12}{:>12}{:>9}{:>8}{:>6}{}\n", q.name, q.unit,
                        digits(q.min), digits(q.max), digits(q.mean), digits(q.sd), q.missing,
-                       q.stuck, q.saturated, q.covariate ? "  covariate" : "");
+                       q.stuck, q.saturated(), q.covariate ? "  covariate" : "");
   if (!card.channels.empty())
     out +=
-        "stuck: samples in the longest run of one value; sat: runs of 3 or more at the minimum or "
-        "maximum\n";
+        "stuck: samples in the longest run of one value; sat: runs at the minimum or maximum that "
+        "noise does not make\n";
   for (const auto& sentence : card.remarks.texts()) out += "! " + sentence + "\n";
   for (const auto& [key, value] : card.facts) {
     std::string shown = value.substr(0, 90);

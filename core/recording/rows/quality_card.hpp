@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/recording/recording.hpp"
+#include "core/recording/saturation.hpp"
 
 namespace drift {
 
@@ -14,10 +15,11 @@ struct ChannelQuality {
   bool covariate = false;
   std::size_t measured = 0, missing = 0;              ///< samples
   double min = 0.0, max = 0.0, mean = 0.0, sd = 0.0;  ///< of the measured samples; NaN if none
-  std::size_t stuck = 0;       ///< samples in the longest run of one and the same value
-  std::size_t stuck_line = 0;  ///< line or row at which that run starts
-  double step = 0.0;           ///< of a readout coarser than its noise (reading_step()); or 0
-  std::size_t saturated = 0;   ///< runs of three samples or more at the minimum or maximum
+  std::size_t stuck = 0;             ///< samples in the longest run of one and the same value
+  std::size_t stuck_line = 0;        ///< line or row at which that run starts
+  double step = 0.0;                 ///< of a readout coarser than its noise (reading_step()); or 0
+  std::vector<Saturation> standing;  ///< where a sensor reads what its noise does not allow
+  std::size_t saturated() const;     ///< runs of those at the minimum or maximum
 };
 
 /// A place where samples are missing.

@@ -100,6 +100,27 @@ TEST(NewStudy, TheThirdGimbalMayHaveAShortNameAndAClockWritesTheMonthFirst) {
   EXPECT_EQ(fit.code, 0) << fit.err;
 }
 
+TEST(NewStudy, GravityOfALogOfSensorsOnACaseIsToBeCheckedWhereItDividesIt) {
+  const ScratchFolder folder;
+  for (const auto& [unit, up, check] :
+       {std::tuple{"m/s^2", 9.81, true}, std::tuple{"g", 1.0, false}}) {
+    std::string text = fmt::format(
+        "time [s],gyro_x [rad/s],gyro_y [rad/s],gyro_z [rad/s],acc_x [{0}],acc_y [{0}],acc_z "
+        "[{0}]\n",
+        unit);
+    for (int row = 1; row <= 300; ++row)
+      text += fmt::format("{:.2f},{:.4f},0.002,0.003,0.1,0.2,{:.4f}\n", 0.01 * row,
+                          1e-4 * (row % 7), up + 1e-3 * (row % 5));
+    const std::string log = folder.write(check ? "ms2.csv" : "g.csv", text),
+                      file = folder.file(check ? "ms2.toml" : "g.toml");
+    const Answer made = driftscope("new strapdown " + log + " -o " + file);
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(has(text_of(file), "# there: check; a recording in m/s^2"), check) << text_of(file);
+    EXPECT_TRUE(has(text_of(file), "a recording in m/s^2 is divided by it")) << text_of(file);
+    EXPECT_EQ(driftscope("check " + file).code, 0);
+  }
+}
+
 TEST(NewStudy, WhatNobodyHasCheckedIsNoFactOfWhatIsConverted) {
   const ScratchFolder folder;
   const std::string made = folder.write("made.toml", short_study), own = folder.file("own.csv"),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "analysis/report/strapdown/case_report.hpp"
 #include "analysis/strapdown/case_identify.hpp"
@@ -93,6 +94,67 @@ TEST(CaseWords, AMisfitBesideAGravityThatIsOffStaysOne) {
   EXPECT_NE(brief.next.find("driftscope diagnose"), std::string::npos) << brief.next;
   EXPECT_TRUE(std::ranges::any_of(
       brief.more.texts(), [](const std::string& text) { return text.starts_with("Gravity: "); }));
+}
+
+/// A navigation-grade unit of a laboratory at `latitude` [rad], turned by 0.5 to the West of North.
+Recording of_a_laboratory(double latitude) {
+  test::StrapdownScript script;
+  script.dwells = 16;
+  script.rest = 10.0;
+  script.turn = 8.0;
+  script.gyro_noise = 3e-6;
+  script.acc_noise = 1e-4;
+  script.omega_ie_l = Site{latitude, 9.8}.omega_ie_l();
+  script.attitude = case_attitude(0.5);
+  return strapdown_recording(script, Theta::Zero());
+}
+
+TEST(CaseWords, WhereNorthIsIsToldWithItsSigmaAndAllParametersWithTheirCovariance) {
+  const mc::Study study =
+      mc::read_study_text(test::strapdown_study("45.75 deg", "9.8 m/s^2"), "study.toml");
+  const CaseIdentification id =
+      identify_case(study, case_study(study, of_a_laboratory(study.site.latitude)));
+  const report::Report said = report::case_report(study, id);
+  const std::string text = fmt::format("{}", fmt::join(said.brief.more.texts(), "\n"));
+  EXPECT_NE(text.find("in the first dwell the x axis of the case points 33"), std::string::npos)
+      << text;
+  const auto json = nlohmann::json::parse(said.document.second);
+  const auto& azimuth = json.at("azimuth");
+  EXPECT_EQ(azimuth.at("axis"), "x");
+  const double sigma = azimuth.at("sigma_deg").get<double>();
+  EXPECT_EQ(sigma, json.at("azimuth_sigma_deg").get<double>());
+  EXPECT_NEAR(azimuth.at("from_north_to_east_deg").get<double>(), 360.0 - 0.5 / unit::deg.to_si,
+              5.0 * sigma);
+  const auto table = std::ranges::find(said.files, "covariance.csv",
+                                       [](const auto& f) { return std::string(f.first); });
+  ASSERT_NE(table, said.files.end());
+  const std::size_t n = id.fits.front().fit.estimate.parameters.size();
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(table->second, '\n')),
+            1 + id.fits.size() * n * (n + 1) / 2);
+  const StrapdownParameter& p = id.fits.front().parameters.front();
+  const auto at = table->second.find(fmt::format(",1,batch,{0},{0},{1},{1},", p.key, p.unit));
+  ASSERT_NE(at, std::string::npos) << table->second.substr(0, 400);
+  const std::string line = table->second.substr(at, table->second.find('\n', at) - at);
+  const auto before = line.rfind(',', line.rfind(',') - 1);
+  EXPECT_NEAR(std::stod(line.substr(before + 1)), p.sigma * p.sigma, 1e-9 * p.sigma * p.sigma);
+}
+
+TEST(CaseWords, OfAWrongLatitudeItIsNotSaidThatTheGyrosDoNotSeeTheEarth) {
+  const mc::Study study =
+      mc::read_study_text(test::strapdown_study("45 deg", "9.8 m/s^2"), "study.toml");
+  const CaseIdentification id = identify_case(study, of_a_laboratory(34.0 * unit::deg.to_si));
+  ASSERT_TRUE(id.latitude);
+  ASSERT_FALSE(id.study.compass.sees_earth);
+  const report::InBrief brief = report::case_report(study, id).brief;
+  const std::string text = fmt::format("{}", fmt::join(brief.more.texts(), "\n"));
+  EXPECT_NE(brief.verdict.find("the gyros at rest see the Earth as it turns at 3"),
+            std::string::npos)
+      << brief.verdict;
+  EXPECT_EQ(text.find("The gyros do not see the Earth"), std::string::npos) << text;
+  EXPECT_NE(text.find("At 45.000 deg, the latitude of the study, what the gyros read at rest is "
+                      "not the Earth's rate"),
+            std::string::npos)
+      << text;
 }
 
 }  // namespace

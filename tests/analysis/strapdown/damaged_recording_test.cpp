@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/diagnosis/judge.hpp"
 #include "analysis/strapdown/case_identify.hpp"
+#include "analysis/strapdown/checks/saturated.hpp"
 #include "core/base/check.hpp"
 #include "core/base/nan.hpp"
 #include "core/recording/rows/quality_card.hpp"
@@ -79,6 +81,45 @@ TEST(DamagedRecording, RowsOfZerosAreNotMeasured) {
       << filled.remarks[0];
 }
 
+TEST(DamagedRecording, AGyroAtTheEndOfItsRangeIsLeftOutAsIfItWereMissingAndSaidFirst) {
+  Recording clipped = made(), missing = made();
+  double fastest = 0.0;
+  for (const double v : channel(clipped, "gyro_y")) fastest = std::max(fastest, std::abs(v));
+  const double limit = 0.8 * fastest;
+  std::size_t rows = 0;
+  for (double& v : channel(clipped, "gyro_y")) v = std::clamp(v, -limit, limit);
+  for (double& v : channel(missing, "gyro_y"))
+    if (std::abs(v) >= limit) {
+      v = nan_value;
+      ++rows;
+    }
+  ASSERT_GT(rows, 2u);
+  const CaseStudy cut = case_study(study(), clipped), left_out = case_study(study(), missing);
+  EXPECT_LT(cut.test.ways.size(), 11u);
+  EXPECT_EQ(cut.test.ways, left_out.test.ways);
+  EXPECT_EQ(cut.test.measured.acc.cols(), left_out.test.measured.acc.cols());
+  ASSERT_FALSE(cut.saturated.empty());
+  EXPECT_EQ(cut.remarks.front(), cut.saturated);
+  for (const char* part :
+       {"gyro_y in turn", " deg/s, its ", "A gyro at the end of its range", "set a larger range"})
+    EXPECT_NE(cut.remarks.front().find(part), std::string::npos) << cut.remarks.front();
+  EXPECT_TRUE(left_out.saturated.empty());
+}
+
+TEST(DamagedRecording, TurnsAreCountedFromTheDwellBeforeThem) {
+  std::vector<Dwell> dwells(2);
+  dwells[0].first = 10;
+  dwells[1].first = 30;
+  std::vector<double> time(60);
+  for (std::size_t k = 0; k < time.size(); ++k) time[k] = 0.1 * static_cast<double>(k);
+  const auto turns = turns_of({5, 6, 20, 21, 25, 50}, time, dwells);
+  ASSERT_EQ(turns.size(), 3u);
+  EXPECT_EQ(turns[0].number, 0u);
+  EXPECT_EQ(turns[1].number, 1u);
+  EXPECT_DOUBLE_EQ(turns[1].time, 2.0);
+  EXPECT_EQ(turns[2].number, 2u);
+}
+
 TEST(DamagedRecording, AnAccelerometerThatStandsStillIsNamedWhereNothingIsQuiet) {
   Recording r = made();
   std::ranges::fill(channel(r, "acc_y"), 0.01);
@@ -96,6 +137,16 @@ TEST(DamagedRecording, AnAccelerometerThatReadsNoiseAloneIsNamedAndALiveOneIsNot
     const std::string said = refusal(r);
     EXPECT_NE(said.find(std::string(name) + ": in 12 rests it reads"), std::string::npos) << said;
   }
+}
+
+TEST(DamagedRecording, RestsThatAreTooShortAreSaidWithTheirLengthAndThatOfTheQuietInThem) {
+  const std::string said = refusal(test::strapdown_recording(
+      {.dwells = 12, .rest = 2.0, .gyro_noise = 1e-4, .seed = 3}, Theta::Zero()));
+  EXPECT_NE(said.find("no dwell of 2 s"), std::string::npos) << said;
+  EXPECT_NE(said.find("the longest quiet stretch lasts 1."), std::string::npos) << said;
+  EXPECT_NE(said.find("quiet is judged over 0.5 s: a rest has to last 2.5 s to be quiet for 2 s"),
+            std::string::npos)
+      << said;
 }
 
 TEST(DamagedRecording, TimesInMillisecondsUnderSecondsAreAskedFor) {

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/support/case_unit.hpp"
 
 namespace drift::strapdown::gyrocompass_test {
@@ -50,6 +53,32 @@ TEST(Gyrocompass, ADriftBeyondItsPriorThatTheRestsKnowHidesNoEarth) {
   set(theta, "D_F_y", -8.0);
   const Unit u = unit_of(script(9), theta);
   EXPECT_TRUE(u.compass.sees_earth);
+}
+
+TEST(Gyrocompass, AnAxisPointsFromNorthToEast) {
+  // Level, turned by 0.5 from North to West: x is 0.5 to the West of North.
+  AxisHeading heading = axis_heading(Vec3(0.0, 0.0, 1.0), 0.5);
+  EXPECT_EQ(heading.axis, 0);
+  EXPECT_NEAR(heading.azimuth, 2.0 * std::numbers::pi - 0.5, 1e-12);
+  // With x up the least turn is one about y, which stays where it is: West.
+  heading = axis_heading(Vec3(1.0, 0.0, 0.0), 0.0);
+  EXPECT_EQ(heading.axis, 1);
+  EXPECT_NEAR(heading.azimuth, 1.5 * std::numbers::pi, 1e-12);
+}
+
+TEST(Gyrocompass, TheHeadingOfASimulatedUnitIsThatItWasMadeWith) {
+  for (const double west : {0.5, -2.0}) {
+    test::StrapdownScript made = script(12);
+    made.attitude = case_attitude(west);
+    const Signals signals = signals_of(strapdown_recording(made, sensors()));
+    const Unit u = unit_of(made);
+    ASSERT_TRUE(u.compass.sees_earth);
+    const AxisHeading heading =
+        axis_heading(find_dwells(signals, {}).dwells.front().acc, u.compass.azimuth.front());
+    EXPECT_EQ(heading.axis, 0);
+    const double off = std::remainder(heading.azimuth + west, 2.0 * std::numbers::pi);
+    EXPECT_LT(std::abs(off), 5.0 * u.compass.sigma) << west;
+  }
 }
 
 }  // namespace drift::strapdown::gyrocompass_test

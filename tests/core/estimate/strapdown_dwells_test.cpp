@@ -34,6 +34,23 @@ TEST(StrapdownDwells, ShorterThanStaticMinDoNotCount) {
   EXPECT_EQ(find_dwells(signals, {.static_min = 4.0}).dwells.size(), 0u);
 }
 
+TEST(StrapdownDwells, AreQuietForStaticMinAndHalfAWindowIsCutFromBothEnds) {
+  const StrapdownScript script{.dwells = 12, .rest = 3.0, .turn = 2.0};
+  const Signals signals = signals_of(strapdown_recording(script, Theta::Zero()));
+  const DwellSearch found = find_dwells(signals, {.static_min = 2.0, .window = 0.5});
+  ASSERT_EQ(found.dwells.size(), 12u);
+  for (const Dwell& d : found.dwells) {
+    EXPECT_GE(d.quiet, 2.0);
+    EXPECT_NEAR(d.quiet - d.duration(), 0.5, 0.011);  // a row at either end
+  }
+  EXPECT_EQ(found.longest_left, 0.0);
+  // Those of 3 s are quiet for a window less, and up to a window more where the turn begins slowly.
+  const DwellSearch none = find_dwells(signals, {.static_min = 4.0, .window = 0.5});
+  EXPECT_TRUE(none.dwells.empty());
+  EXPECT_GT(none.longest_left, 2.0);
+  EXPECT_LT(none.longest_left, 3.5);
+}
+
 TEST(StrapdownDwells, DoNotDependOnWhereTheClockBegins) {
   // Ten rows a second: a window of half a second is two rows and a half to either side.
   const StrapdownScript script{.dwells = 8, .rest = 12.0, .turn = 4.0, .interval = 0.1};

@@ -60,7 +60,7 @@ TEST(QualityCard, FindsStuckAndSaturatedSensorsAndCountsWhatIsMissing) {
   Recording r;
   r.channels = {
       {"time", unit::s, {}}, {"acc_x", *parse_unit("mg"), {}}, {"cmd_x", unit::deg_per_h, {}}};
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     r.channels[0].values.push_back(i);
     double x = 0.1 + 0.001 * ((i * 37) % 50);
     if (i >= 30 && i < 55) x = 0.12;
@@ -73,10 +73,10 @@ TEST(QualityCard, FindsStuckAndSaturatedSensorsAndCountsWhatIsMissing) {
   ASSERT_EQ(card.channels.size(), 2u);
   const auto& acc = card.channels[0];
   EXPECT_EQ(acc.missing, 2u);
-  EXPECT_EQ(acc.measured, 98u);
+  EXPECT_EQ(acc.measured, 198u);
   EXPECT_EQ(acc.stuck, 25u);
   EXPECT_EQ(acc.stuck_line, 40u);
-  EXPECT_EQ(acc.saturated, 2u);
+  EXPECT_EQ(acc.saturated(), 2u);
   EXPECT_DOUBLE_EQ(acc.max, 2000.0);
   const std::string text = to_text(card);
   EXPECT_NE(text.find("acc_x: 25 identical samples from line 40"), std::string::npos) << text;

@@ -128,5 +128,24 @@ TEST(AllanFit, UnitsOfTimeAreThoseOfTheInterval) {
   EXPECT_NEAR(tenth.points[3].tau, 0.1 * second.points[3].tau, 1e-12);
 }
 
+TEST(AllanFit, ARampThatNoiseHardlyTouchesHasIntervalsAndNoErrorIsThrown) {
+  // Of R = 1 beside N the variance of tau samples is R^2 tau^2 / 2, and its estimates differ by
+  // about R N tau^1/2 each: 2 f^2 / spread is of the order (R / N)^2, 1e10 and more here.
+  for (const double white : {1e-3, 1e-5}) {
+    Stream random(11, 0, Purpose::test);
+    const AllanFitter fitter(dwells, 1.0);
+    std::vector<Stretch> stretches;
+    for (const std::size_t length : dwells)
+      stretches.push_back(made_stretch({.white = white, .ramp = 1.0}, length, random));
+    const AllanFit fit = fitter.fit(stretches);
+    for (const AllanPoint& p : fit.points) {
+      EXPECT_LE(p.low, p.deviation) << p.tau;
+      EXPECT_GE(p.high, p.deviation) << p.tau;
+      EXPECT_LT(p.high / p.low, 1.1) << p.tau;
+    }
+    EXPECT_NEAR(fit[AllanNoise::ramp].value, 1.0, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace drift::stats::allan_fit_test

@@ -48,6 +48,7 @@ struct Words {
   std::string operator()(const Input& r) const { return r.text; }
 
   std::string operator()(const GimbalOffZero& r) const { return r.text; }
+  std::string operator()(const SaturatedGyro& r) const { return r.text; }
 
   std::string operator()(const LoopLeftOut& r) const {
     return loop_left_out_text(r.loop, recordings, {r.filter});

@@ -41,6 +41,16 @@ TEST(FarFromPriors, AGimbalThatReadsAConstantTooMuchIsTheFirstThingSaidBesideAny
   }
 }
 
+TEST(FarFromPriors, AGyroAtTheEndOfItsRangeIsTheFirstThingSaidBesideAnyVerdict) {
+  for (diagnosis::Diagnosis d :
+       {tense(TermLibrary::find("D_F_y").value()), test::diagnosis(nominal())}) {
+    d.remarks.emplace_back(remark::SaturatedGyro{"gyro_y: in turn 3 (at 45 s) 6 rows read 200"});
+    const auto said = report::diagnosis_in_brief(d).more.texts();
+    ASSERT_FALSE(said.empty());
+    EXPECT_EQ(said.front(), "Range: gyro_y: in turn 3 (at 45 s) 6 rows read 200.");
+  }
+}
+
 TEST(FarFromPriors, AParameterFarFromItsPriorIsInTheShortAnswerOfAnyVerdict) {
   const auto M_y = TermLibrary::find("M_y").value();
   const auto d = tense(M_y);
