@@ -43,9 +43,9 @@ double quiet_noise(const std::vector<double>& x, const Channel* position,
   return std::sqrt(*quarter);
 }
 
-class Readings {
+class SeenValues {
  public:
-  Readings(const Recording& recording, const Channel& channel)
+  SeenValues(const Recording& recording, const Channel& channel)
       : channel_(channel), x_(channel.values), extreme_(x_.size(), false) {
     for (const double v : x_)
       if (std::isfinite(v)) {
@@ -166,7 +166,7 @@ std::size_t Saturation::runs() const {
 
 std::vector<Saturation> saturations(const Recording& recording, const Channel& channel,
                                     std::size_t sensors) {
-  return Readings(recording, channel).found(sensors);
+  return SeenValues(recording, channel).found(sensors);
 }
 
 std::vector<Saturation> saturated_gyros(const Recording& recording) {

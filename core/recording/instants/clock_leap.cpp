@@ -16,7 +16,7 @@ namespace {
 
 constexpr double around = 900.0;         // [s] to either side
 constexpr std::size_t most_rows = 1000;  // to either side
-constexpr std::size_t fewest_rows = 6;
+constexpr std::size_t fewest_rows_beside_leap = 6;
 constexpr double sidereal_day = 86164.1;  // [s]
 constexpr double straight = 1200.0;       // [s] over which a course is nearly its tangent: 5 deg
 constexpr double far = 40.0;              // of chi-square: odds of e^20
@@ -82,7 +82,7 @@ std::optional<Step> step_of(const std::vector<double>& values, const std::vector
     b += a * y;
     squares += y * y;
   }
-  if (before < fewest_rows || behind < fewest_rows) return std::nullopt;
+  if (before < fewest_rows_beside_leap || behind < fewest_rows_beside_leap) return std::nullopt;
   const Eigen::LDLT<Normal> solver(N);
   const Numbers course = solver.solve(b);
   const double dof = static_cast<double>(before + behind) - 5.0;
@@ -99,7 +99,7 @@ std::optional<Step> step_of(const std::vector<double>& values, const std::vector
 std::vector<ClockLeap> clock_leaps(const Recording& r, const RowSpacing& spacing) {
   std::vector<ClockLeap> all;
   const Channel* time = r.find("time");
-  if (time == nullptr || r.rows() < 2 * fewest_rows) return all;
+  if (time == nullptr || r.rows() < 2 * fewest_rows_beside_leap) return all;
   for (std::size_t row = 1; row < r.rows(); ++row) {
     if (!spacing.gap(row)) continue;
     const Around rows = rows_around(r, time->values, row);
@@ -127,7 +127,7 @@ std::vector<ClockLeap> clock_leaps(const Recording& r, const RowSpacing& spacing
 }
 
 std::string clock_leaps_text(const Recording& r) {
-  return r.rows() < 2 * fewest_rows || r.find("time") == nullptr
+  return r.rows() < 2 * fewest_rows_beside_leap || r.find("time") == nullptr
              ? ""
              : clock_leaps_text(r, clock_leaps(r, row_spacing(r)));
 }

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/physics/drift_model.hpp"
-#include "core/physics/parameters_config.hpp"
-#include "tests/support/model_builders.hpp"
+#include "tests/mc/task/models_with.hpp"
 #include "tests/support/own_terms.hpp"
 
 namespace drift::left_out_test {
@@ -13,27 +11,6 @@ namespace {
 
 using namespace drift::test;
 using Names = std::vector<std::string>;
-
-/// Terms and their default priors.
-template <class Spec>
-Spec model(Coupling coupling, std::initializer_list<std::string_view> terms) {
-  Spec spec;
-  spec.coupling = coupling;
-  for (std::size_t i = 0; i < TermLibrary::specs.size(); ++i)
-    spec.priors[i] = TermLibrary::specs[i].prior_si();
-  for (const std::string_view term : terms)
-    spec.active |= TermLibrary::completed(params_named(term));
-  if (coupling == Coupling::lambda) spec.active.set(closure_param);
-  return spec;
-}
-TruthSpec truth_with(std::initializer_list<std::string_view> terms,
-                     Coupling coupling = Coupling::eq5) {
-  return model<TruthSpec>(coupling, terms);
-}
-FilterSpec filter_with(std::initializer_list<std::string_view> terms,
-                       Coupling coupling = Coupling::eq5) {
-  return model<FilterSpec>(coupling, terms);
-}
 
 /// As a study file names them.
 Names missing(const mc::LeftOut& left_out) {
