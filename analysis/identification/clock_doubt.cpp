@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "analysis/identification/common_scale.hpp"
+#include "analysis/identification/parabola_foot.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -33,19 +34,6 @@ std::vector<Recording> with_times(std::vector<Recording> recordings, double fact
     for (double& t : r.begins) t *= factor;
   }
   return recordings;
-}
-
-/// Where the parabola through the costs at -h, 0 and h has its foot, how wide it is (1 sigma), and
-/// by how much it falls from 0 to there.
-struct Foot {
-  double at = 0.0, sigma = 0.0, fall = 0.0;
-};
-
-/// Nothing where there is no valley.
-std::optional<Foot> foot_of(const std::vector<double>& costs, double h) {
-  const double bend = costs[0] + costs[2] - 2.0 * costs[1], slope = costs[0] - costs[2];
-  if (!(bend > 0.0)) return std::nullopt;
-  return Foot{0.5 * h * slope / bend, h * std::sqrt(2.0 / bend), slope * slope / (8.0 * bend)};
 }
 
 /// A first step as wide as a part of the way: what else is missing bends the valley.

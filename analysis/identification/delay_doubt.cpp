@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "analysis/identification/parabola_foot.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "analysis/preparation/recorded_test.hpp"
 #include "core/base/check.hpp"
@@ -41,17 +42,6 @@ std::vector<Recording> without_slews(std::vector<Recording> recordings) {
           if (slew[row] == 1.0) c.values[row] = nan_value;
   }
   return recordings;
-}
-
-/// Where the parabola through three costs has its foot, how wide it is (1 sigma), and by how much
-/// it falls from the middle one to there; nothing where there is no valley.
-struct Foot {
-  double at = 0.0, sigma = 0.0, fall = 0.0;
-};
-std::optional<Foot> foot_of(const std::vector<double>& costs, double h) {
-  const double bend = costs[0] + costs[2] - 2.0 * costs[1], slope = costs[0] - costs[2];
-  if (!(bend > 0.0)) return std::nullopt;
-  return Foot{0.5 * h * slope / bend, h * std::sqrt(2.0 / bend), slope * slope / (8.0 * bend)};
 }
 
 EstimateResult fitted(const mc::Study& study, const std::vector<Recording>& recordings,

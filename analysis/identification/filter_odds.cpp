@@ -6,6 +6,7 @@
 #include "analysis/inference/misalignments.hpp"
 #include "analysis/inference/thresholds.hpp"
 #include "core/base/decompose.hpp"
+#include "core/physics/stochastic.hpp"
 
 namespace drift::identification {
 namespace {

@@ -6,13 +6,13 @@
 namespace drift::report {
 namespace {
 
-constexpr std::string_view drawn = "learning_ratio_at_drawn_truths";  // a range: two columns
+constexpr std::string_view drawn_column = "learning_ratio_at_drawn_truths";  // a range: two columns
 
 /// What stands above a column of the table.
 std::string heading_of(const std::string& key) {
   if (key == "key") return "parameter";  // as in estimates.csv
   if (key == "bits") return "bits [bit]";
-  return key == drawn ? fmt::format("{}_low,{}_high", key, key) : key;
+  return key == drawn_column ? fmt::format("{}_low,{}_high", key, key) : key;
 }
 
 /// A cell below it.
@@ -22,7 +22,7 @@ std::string field_of(const std::string& key, const Value& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return csv_field(*text);
   if (const auto* range = std::get_if<std::vector<double>>(&value))
     return csv_number(range->front()) + "," + csv_number(range->back());
-  return key == drawn ? "," : "";
+  return key == drawn_column ? "," : "";
 }
 
 /// The rows of a model, each behind `head`.
