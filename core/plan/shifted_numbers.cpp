@@ -49,14 +49,14 @@ std::vector<Change> changes_of(const Recording& r, const TestPlan* plan) {
     return k >= 1 && k <= plan->positions.size() && plan->positions[k - 1].entry == Entry::caged;
   };
   const std::vector<double>& position = r.find("position")->values;
-  std::vector<NumberedRows> stretches;
+  std::vector<RowStretch> stretches;
   for (std::size_t row = 0; row < r.rows(); ++row) {
     if (row == 0 || position[row] != position[row - 1]) stretches.push_back({row, row});
     stretches.back().end = row + 1;
   }
   std::vector<Change> all;
   for (std::size_t k = 1; k < stretches.size(); ++k) {
-    const NumberedRows &before = stretches[k - 1], &behind = stretches[k];
+    const RowStretch &before = stretches[k - 1], &behind = stretches[k];
     if (!caged(position[behind.first])) continue;
     Change change{.at = behind.first};
     const auto turn = [&](const ChannelTriple& channels) {

@@ -9,7 +9,7 @@
 namespace drift {
 
 /// Rows that follow each other under one number of a position.
-struct NumberedRows {
+struct RowStretch {
   std::size_t first = 0, end = 0;  ///< the end is the first row of the next
 
   std::size_t rows() const { return end - first; }
@@ -27,6 +27,6 @@ struct SeenTurn {
 /// than a plan may be missed (largest_mismatch) from its begin to its end, and a reading that is
 /// none turns back. Empty where there is none, or where the dwells move as fast.
 std::optional<SeenTurn> turn_at_change(const Recording& recording, const ChannelTriple& channels,
-                                       const NumberedRows& before, const NumberedRows& behind);
+                                       const RowStretch& before, const RowStretch& behind);
 
 }  // namespace drift
