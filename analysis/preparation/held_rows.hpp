@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,20 @@ void leave_out_held_rows(Recording& recording, std::vector<std::string>& remarks
 /// The recording without them: what its sensors measured.
 Recording without_held_rows(Recording recording);
 
-/// Takes out where a sensor stands at one value for far longer than it usually does
-/// (RecordingLimits::stuck): stuck, or at the end of its range. Such samples become NaN, with a
-/// remark. A sensor that reads in coarse steps repeats itself as it likes (reading_step()).
+/// Rows in which a sensor stands at one value.
+struct StuckRows {
+  std::string channel;
+  std::size_t first = 0, end = 0;
+};
+
+/// Where a sensor stands at one value for far longer than it usually does (RecordingLimits::stuck):
+/// stuck, or at the end of its range. In a recording that names positions, also where it does so
+/// for longer than chance has it (stuck_by_chance), as often as the channel repeats itself
+/// elsewhere, or in that position: of one that never does five readings. One that reads in coarse
+/// steps repeats itself as it likes (reading_step()).
+std::vector<StuckRows> stuck_rows(const Recording& recording);
+
+/// Takes these out: such samples become NaN, with a remark for each channel.
 void leave_out_stuck(Recording& recording, std::vector<std::string>& remarks);
 
 }  // namespace drift::preparation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 
 #include "core/plan/attitude_slips.hpp"
 #include "core/stats/normal.hpp"
@@ -16,6 +17,11 @@ struct RecordingLimits {
   /// does, is stuck. Tuned on a coarse readout, which repeats a value often.
   /// Test: Prepare.TwentyEqualSamplesAreAStuckSensor
   static constexpr std::size_t stuck = 20;
+  /// Expected number of runs of equal readings, of those that chance makes of a channel, that are
+  /// taken for a stuck sensor: one channel of 10 000 recordings has one. Readings of normal noise
+  /// in steps repeat once more sqrt(2) times as often as they repeat at all, at most. Test:
+  /// StuckSensor.*
+  static constexpr double stuck_by_chance = 1e-4, once_more = std::numbers::sqrt2;
   /// Gaps that gimbal angles cannot close before the angles are doubted: two may be chance.
   static constexpr std::size_t odd_gaps = 3;
   /// Part by which sample intervals may differ from the plan's, and from each other. Tuned.

@@ -36,9 +36,9 @@ struct Prepared {
 /// holds, one position (nothing can be held out), channels absent or empty, bursts of missing
 /// samples, missing rows, dwells and commands that are not the plan's. Left out and remarked: a
 /// channel, or a stretch of it, that stands at one and the same value for at least 20 samples and
-/// 20 times as long as it usually does: a stuck sensor. And,
-/// of rows that are joined, single readings far from those around (raw_spikes()). Such samples
-/// become NaN.
+/// 20 times as long as it usually does, or longer than chance has it: a stuck sensor
+/// (stuck_rows()). And, of rows that are joined, single readings far from those around
+/// (raw_spikes()). Such samples become NaN.
 ///
 /// Rows may lie at any distance from each other, in one recording and in several. Rows that are
 /// evenly spaced throughout, of positions that have one sample in the plan, stay as they are, or a

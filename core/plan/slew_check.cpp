@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/physics/gimbals.hpp"
+#include "core/plan/attitude_slips.hpp"
 #include "core/plan/mixup.hpp"
 #include "core/recording/recording_channels.hpp"
 #include "core/stats/median.hpp"
@@ -73,17 +74,19 @@ class Slews {
   const std::vector<Turn>& turns() const { return turns_; }
 
   /// Part of the commanded turn by which the platform turned otherwise.
-  double mismatch(const Turn& t, const Mixup& commands, const Mixup& gimbals,
-                  double factor = 1.0) const {
+  double mismatch(const Turn& t, const Mixup& commands, const Mixup& gimbals, double factor = 1.0,
+                  double of_angles = 1.0) const {
     const Vec3 commanded = factor * t.length * commands.of(t.omega_cmd_p);
-    const Vec3 shown = turned(recording_, site_, t, gimbals.of(t.from), gimbals.of(t.to));
+    const Vec3 shown =
+        turned(recording_, site_, t, of_angles * gimbals.of(t.from), of_angles * gimbals.of(t.to));
     const Mat3 left = rotation<double>(commanded).transpose() * rotation<double>(shown);
     return rotation_vector(left).norm() / std::min(commanded.norm(), 1.0);
   }
   /// That of the median turn: at its ends a slew may not fill a row.
-  double usual_mismatch(const Mixup& commands, const Mixup& gimbals, double factor = 1.0) const {
+  double usual_mismatch(const Mixup& commands, const Mixup& gimbals, double factor = 1.0,
+                        double of_angles = 1.0) const {
     std::vector<double> all;
-    for (const Turn& t : turns_) all.push_back(mismatch(t, commands, gimbals, factor));
+    for (const Turn& t : turns_) all.push_back(mismatch(t, commands, gimbals, factor, of_angles));
     return stats::upper_median(std::move(all));
   }
 
@@ -111,6 +114,23 @@ std::optional<Unit> unit_of_commands(const Slews& slews, const Unit& said) {
   for (const Unit& unit : rate_units)
     if (slews.usual_mismatch({}, {}, unit.to_si / said.to_si) < same_turn) return unit;
   return std::nullopt;
+}
+
+/// The one unit of angles in which the gimbals would turn as commanded; of several the one that
+/// leaves less than half of what any other does, and what a unit of the commands does.
+std::optional<std::string_view> unit_of_gimbals(const Slews& slews, const Unit& said,
+                                                const std::optional<Unit>& of_commands,
+                                                const Unit& commands_said) {
+  std::vector<std::pair<double, std::string_view>> left;
+  if (of_commands)
+    left.emplace_back(slews.usual_mismatch({}, {}, of_commands->to_si / commands_said.to_si), "");
+  for (const auto& [symbol, to_si] : angle_units())
+    if (to_si != said.to_si)
+      left.emplace_back(slews.usual_mismatch({}, {}, 1.0, to_si / said.to_si), symbol);
+  std::ranges::sort(left);
+  if (left[0].second.empty() || !(left[0].first < same_turn) || left[0].first > 0.5 * left[1].first)
+    return std::nullopt;
+  return left[0].second;
 }
 
 /// Commands that stand rows too late or too early: with those of other rows, one or two away, the
@@ -203,7 +223,20 @@ std::optional<RowMistake> slew_mistake(const Recording& recording, const Timelin
   if (of_commands) return RowMistake{first, mixup_text(*of_commands, command_channels, all)};
   if (of_gimbals) return RowMistake{first, mixup_text(*of_gimbals, gimbal_channels, all)};
   const Unit& said = recording.find("cmd_x")->unit;
-  if (const auto unit = unit_of_commands(slews, said))
+  const auto unit = unit_of_commands(slews, said);
+  const Unit& angles = recording.find("gimbal_outer")->unit;
+  const bool one_unit = std::ranges::all_of(gimbal_channels.names, [&](std::string_view name) {
+    return recording.find(name)->unit.to_si == angles.to_si;
+  });
+  if (one_unit && !gimbals_as_planned)
+    if (const auto of_angles = unit_of_gimbals(slews, angles, unit, said))
+      return RowMistake{
+          first,
+          fmt::format("gimbal_outer, gimbal_middle and gimbal_inner are in another unit: the "
+                      "platform turned as commanded if the numbers are in [{}], not [{}]. "
+                      "Correct the units",
+                      *of_angles, angles.symbol.view())};
+  if (unit)
     return RowMistake{first,
                       fmt::format("cmd_x, cmd_y, cmd_z are in another unit: the platform turned as "
                                   "if they were in [{}], not [{}]. Correct the unit",

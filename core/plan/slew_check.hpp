@@ -28,10 +28,10 @@ Mat3 attitude_shown(const Recording& recording, const Site& site, std::size_t ro
 /// Whether the platform turned as it was commanded in the slews of a recording, as the gimbals
 /// show: a slew is hundreds of times as fast as the Earth and any drift. Where it did not in most
 /// rows of slews: the columns of commands or of gimbals that are exchanged or reversed, or the unit
-/// of the commands, if one of these explains it. Where it did in most, the columns of commands by
-/// which three turns that were otherwise, and none that was not, become as commanded.
-/// gimbals_as_planned: they show the attitudes of the plan, so the commands are wrong. Empty where
-/// it did, or nothing tells.
+/// of the commands or of the gimbals, if one of these explains it. Where it did in most, the
+/// columns of commands by which three turns that were otherwise, and none that was not, become as
+/// commanded. gimbals_as_planned: they show the attitudes of the plan, so the commands are wrong.
+/// Empty where it did, or nothing tells.
 std::optional<RowMistake> slew_mistake(const Recording& recording, const Timeline& timeline,
                                        bool gimbals_as_planned);
 

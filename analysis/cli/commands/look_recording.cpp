@@ -10,6 +10,7 @@
 #include "analysis/identification/delay_doubt.hpp"
 #include "analysis/preparation/clock_unit.hpp"
 #include "analysis/preparation/held_rows.hpp"
+#include "analysis/preparation/input_thresholds.hpp"
 #include "analysis/preparation/rows/raw_spikes.hpp"
 #include "analysis/report/noise/noise.hpp"
 #include "analysis/report/page/table.hpp"
@@ -156,6 +157,12 @@ preparation::NoiseCard show_recording(const Recording& r, RecordingKind kind, do
     for (const preparation::RawSpikes& spikes : preparation::raw_spikes(r))
       show("\n{}\n", report::wrapped(preparation::raw_spikes_text(r, spikes), 98));
     const Recording measured = preparation::without_held_rows(r);
+    for (const preparation::StuckRows& stuck : preparation::stuck_rows(measured))
+      if (stuck.end - stuck.first < preparation::RecordingLimits::stuck)  // longer: by the card
+        show(
+            "\n{}: {} identical samples from line {} on, which chance does not make: a stuck "
+            "sensor?\n",
+            stuck.channel, stuck.end - stuck.first, r.lines[stuck.first]);
     const auto rests = preparation::resting_rows(measured);
     card = preparation::noise_card(measured, kind, rests);
     show_scatter(measured, rests);

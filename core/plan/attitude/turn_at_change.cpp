@@ -22,7 +22,7 @@ constexpr double resolved = 0.01 * largest_mismatch;
 /// axes 7.5 sigma, 4e-12.
 constexpr double usual_part = 0.9, beyond_usual = 3.0;
 /// So many looks without motion may lie between two parts of one turn.
-constexpr std::size_t pause = 3;
+constexpr std::size_t rest_between = 3;
 
 /// What one kind of instrument shows.
 class ShownAngles {
@@ -90,7 +90,7 @@ std::optional<SeenTurn> moving(const ShownAngles& shown, const std::vector<std::
   };
   for (std::size_t k = 1; k < rows.size(); ++k) {
     if (!(shown.apart(rows[k - 1], rows[k]) > limit)) continue;
-    if (end == 0 || k > end + pause) {
+    if (end == 0 || k > end + rest_between) {
       take_part();
       begin = k - 1;
     }

@@ -12,7 +12,7 @@
 namespace drift {
 namespace {
 
-constexpr double day = 86400.0;  // [s]
+constexpr double clock_day = 86400.0;  // [s]
 
 /// Whether so many rows have the time of the row before that none was written twice: the time is
 /// too coarse. Said once.
@@ -39,7 +39,7 @@ bool report_shared_times(const Recording& r, const Channel& time, Problems& prob
 bool report_twelve_hours(const Recording& r, const Channel& time, Problems& problems) {
   const auto zero = std::ranges::find(r.facts, "time_zero", [](const auto& f) { return f.first; });
   const auto clock = zero == r.facts.end() ? std::nullopt : parse_clock(zero->second);
-  const auto hour = [&](double t) { return std::floor(std::fmod(*clock + t, day) / 3600.0); };
+  const auto hour = [&](double t) { return std::floor(std::fmod(*clock + t, clock_day) / 3600.0); };
   for (std::size_t i = 1; clock && i < r.rows(); ++i) {
     const double before = time.values[i - 1], after = time.values[i];
     if (!(after < before) || hour(before) != 12.0 || hour(after) != 1.0) continue;
@@ -71,7 +71,7 @@ std::string place_in(const Recording& r, std::size_t row, std::string_view colum
 
 std::optional<double> begins_again_after(double before, double after) {
   constexpr double week = 604800.0, hour = 3600.0;
-  for (const double period : {day, week})
+  for (const double period : {clock_day, week})
     if (before <= period && before > period - hour && after >= 0.0 && after < hour) return period;
   return std::nullopt;
 }
@@ -95,11 +95,12 @@ void check_time(const Recording& r, Problems& problems) {
                       line_of(r, last_row)),
           "time to increase from row to row",
           begins_again
-              ? fmt::format("If this is a clock that begins again {}, read it as a counter in "
-                            "[recording] of the study file: counter = \"its header\", tick = \"1 "
-                            "ms\" and wrap = {:.0f}, or what a count is, and how many make a {}",
-                            *begins_again > day ? "with the week, as that of GPS" : "at midnight",
-                            1e3 * *begins_again, *begins_again > day ? "week" : "day")
+              ? fmt::format(
+                    "If this is a clock that begins again {}, read it as a counter in "
+                    "[recording] of the study file: counter = \"its header\", tick = \"1 "
+                    "ms\" and wrap = {:.0f}, or what a count is, and how many make a {}",
+                    *begins_again > clock_day ? "with the week, as that of GPS" : "at midnight",
+                    1e3 * *begins_again, *begins_again > clock_day ? "week" : "day")
               : "Remove rows that were written twice; if a clock begins again here (in each "
                 "position, in autumn, where a counter is full), write times that go on, or "
                 "read it as a counter of [recording]; sort only rows that are out of order");

@@ -51,6 +51,22 @@ TEST(AttitudeCheck, NamesThemWhereThePlatformIsSlewedFromPositionToPosition) {
   }
 }
 
+TEST(AttitudeCheck, NamesTheUnitOfAnglesWithWhichThePlatformWouldHaveTurnedAsCommanded) {
+  for (const Unit& true_unit : {unit::rad, unit::arcsec}) {
+    Scene s("slew12");
+    const Unit said = s.recording.find("gimbal_outer")->unit;
+    ASSERT_NE(said.to_si, true_unit.to_si);
+    for (const char* name : {"gimbal_outer", "gimbal_middle", "gimbal_inner"})
+      for (double& x : s.column(name)) x *= said.to_si / true_unit.to_si;
+    const auto wrong = s.mistakes();
+    ASSERT_FALSE(wrong.empty());
+    expect_part(wrong.front().text,
+                fmt::format("turned as commanded if the numbers are in [{}], not [{}]",
+                            true_unit.symbol.view(), said.symbol.view())
+                    .c_str());
+  }
+}
+
 TEST(AttitudeCheck, ACommandThatFewSlewsFollowIsToldByThese) {
   // In twelve slews an axis is turned about by a third of the turns: the median knows nothing of
   // it.
