@@ -44,8 +44,8 @@ std::vector<Recording> without_slews(std::vector<Recording> recordings) {
   return recordings;
 }
 
-EstimateResult fitted(const mc::Study& study, const std::vector<Recording>& recordings,
-                      const FilterSpec& filter, BatchOptions::Result result) {
+EstimateResult estimate_of(const mc::Study& study, const std::vector<Recording>& recordings,
+                           const FilterSpec& filter, BatchOptions::Result result) {
   const preparation::RecordedTest test = preparation::recorded_test(study, recordings);
   return fit_batch(filter, {test.timeline, study.readout, test.measured}, make_layout(filter).theta,
                    {.result = result})
@@ -130,7 +130,7 @@ std::optional<DelayDoubt> delay_of_misfit(const DwellsAlone& test, const FilterS
       [&](DelayDoubt::Of of, double seconds) {
         std::vector<Recording> shifted = test.recordings;
         for (Recording& r : shifted) shift_readings(r, channels_of(of).names, seconds);
-        return fitted(test.study, shifted, filter, BatchOptions::Result::estimates);
+        return estimate_of(test.study, shifted, filter, BatchOptions::Result::estimates);
       },
       interval, inference::SiteLimits::promise);
   return found && found->evident() && (found->explains() || found->alone()) ? found : std::nullopt;

@@ -104,16 +104,16 @@ class SeenValues {
     const double end = at == Saturation::At::low ? low_ : high_;
     if (!turns(end)) return std::nullopt;
     Saturation s{channel_.name, end, at, {}};
-    std::size_t beside = 0;
+    std::size_t next_to_it = 0;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       if (x_[k] == end)
         s.rows.push_back(k);
       else if (std::abs(x_[k] - end) <= near * sigma_)
-        ++beside;
+        ++next_to_it;
     }
     if (s.rows.size() < 2) return std::nullopt;
     const std::size_t again = s.rows.size() - 1;
-    if (stats::binomial_tail(again, again + beside, repeats_) > chance) return std::nullopt;
+    if (stats::binomial_tail(again, again + next_to_it, repeats_) > chance) return std::nullopt;
     return s;
   }
 
