@@ -124,7 +124,8 @@ void show_means(const Recording& r) {
           fmt::format(
               "acc_* are taken as means over the {} s that end at the time of their row. Momentary "
               "readings are {} s later: on a platform that the Earth's rate turns they are up to "
-              "{} ug off. If they are that, write accelerometers = \"momentary\" in [recording]",
+              "{} ug off. If they are that, the study says so: recording.accelerometers = "
+              "\"momentary\"",
               number_text(interval, 3), number_text(half, 3),
               number_text(detail::earth_rate * half / 1e-6, 2)),
           98));

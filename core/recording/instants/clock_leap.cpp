@@ -88,10 +88,16 @@ std::optional<Step> step_of(const std::vector<double>& values, const std::vector
   const double dof = static_cast<double>(before + behind) - 5.0;
   const double variance = std::max(0.0, squares - course.dot(b)) / dof;
   const double rate = course[1] / around;
-  const double of_step = variance * solver.solve(Numbers::Unit(4))[4];
-  const double sigma = std::sqrt(of_step + std::pow(late_row * rate * usual, 2));
-  if (!(sigma > 0.0)) return std::nullopt;
-  return Step{course[4] / sigma, (course[4] - rate * missing) / sigma};
+  const double late = std::pow(late_row * rate * usual, 2);
+  // Where nothing moves the rate is its noise, which does not tell one from the other.
+  Numbers as_missing = Numbers::Unit(4);
+  as_missing[1] = -missing / around;
+  const auto sigmas = [&](const Numbers& of) {
+    return of.dot(course) / std::sqrt(variance * of.dot(solver.solve(of)) + late);
+  };
+  const Step step{sigmas(Numbers::Unit(4)), sigmas(as_missing)};
+  if (!std::isfinite(step.leap) || !std::isfinite(step.gap)) return std::nullopt;
+  return step;
 }
 
 }  // namespace

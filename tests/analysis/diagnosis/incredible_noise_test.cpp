@@ -24,12 +24,12 @@ Diagnosis diagnosed(double times) {
 }
 
 TEST(IncredibleNoise, IsNeverConsistent) {
-  const Diagnosis d = diagnosed(1000.0);
+  const Diagnosis d = diagnosed(300.0);
   EXPECT_EQ(d.verdict, Verdict::unexplained) << report::sentence(d);
   const auto* noise = remark_in<remark::IncredibleNoise>(d);
   ASSERT_NE(noise, nullptr) << report::sentence(d);
   EXPECT_EQ(noise->component, "accelerometer_white");
-  EXPECT_GT(noise->factor, 500.0);
+  EXPECT_GT(noise->factor, 200.0);
   EXPECT_EQ(report::diagnosis_in_brief(d).next.find("Next: look at the rows of the accelerometers"),
             0u)
       << report::diagnosis_in_brief(d).next;

@@ -252,7 +252,7 @@ TEST(LeftOut, IsAnEquationThatThePriorOfLambdaExcludes) {
   }
   // Without misalignments any lambda does.
   filter.priors[closure_param] = normal(0.3, 0.01);
-  EXPECT_TRUE(mc::left_out(truth_with({"fixed_drift"}, eq6), filter).nothing());
+  EXPECT_TRUE(mc::left_out(truth_with({"fixed_drift"}, eq6), filter).excluded.none());
 }
 
 TEST(LeftOut, TruthsAreDrawnFromWhatAFilterBelievesWherePriorsAndNoiseAreItsOwn) {
