@@ -84,8 +84,7 @@ Judged judge(const search::Fitted& nominal, const search::Search& found,
       out.of_no_noise = std::exp(-gain);
     if (out.one_gyro || out.of_no_noise) {
       out.verdict = Verdict::unexplained;
-    } else if (const double nothing = noise + posterior.wrong_priors;
-               nothing < 1.0 - inference::SearchLimits::chance) {
+    } else if (const double nothing = noise + posterior.wrong_priors; nothing < 1.0 - credible) {
       out.verdict = Verdict::ambiguous;
       out.likelier_missing = {nothing};
     }

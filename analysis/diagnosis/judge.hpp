@@ -38,7 +38,7 @@ enum class NamedBy { held_out, fit_alone };
 /// wrong do, has SearchLimits::credible of them. A cause is named only where nothing missing is not
 /// credible, and the other way round about the priors of the nominal model is not. The other way
 /// round, what is not significant is `ambiguous`, without a cause, where the probabilities have it
-/// that something is missing rather than not (SearchLimits::chance). Where nothing is
+/// that something is missing, credibly (SearchLimits::credible). Where nothing is
 /// found but the rows are not of the noise that was found either (one more factor of noise would be
 /// a million times as likely, its price paid, and more than twice as large; or no likelihood can be
 /// had of them at all), it is unexplained; so it is where white noise is so many times as declared

@@ -32,19 +32,19 @@ Judged judged(double consistent, double noise_only, double wrong_priors = 0.0) {
   return judge(of_white_noise(), search::Search{}, posterior, {}, {}, NamedBy::held_out);
 }
 
-TEST(Judge, WhatIsMoreProbablyMissingThanNotIsNotConsistentThoughNothingIsSignificant) {
+TEST(Judge, WhatIsCrediblyMissingIsNotConsistentThoughNothingIsSignificant) {
   EXPECT_EQ(judged(0.96, 0.0).verdict, Verdict::consistent);
   EXPECT_EQ(judged(0.0, 0.96).verdict, Verdict::consistent);
-  EXPECT_EQ(judged(0.0, 0.51).verdict, Verdict::consistent);
-  EXPECT_EQ(judged(0.3, 0.21).verdict, Verdict::consistent);
-  EXPECT_EQ(judged(0.0, 0.3, 0.21).verdict, Verdict::consistent) << "but for the priors";
-  const Judged open = judged(0.0, 0.23);
+  EXPECT_EQ(judged(0.0, 0.06).verdict, Verdict::consistent);
+  EXPECT_EQ(judged(0.03, 0.03).verdict, Verdict::consistent);
+  EXPECT_EQ(judged(0.0, 0.03, 0.03).verdict, Verdict::consistent) << "but for the priors";
+  const Judged open = judged(0.0, 0.02);
   EXPECT_EQ(open.verdict, Verdict::ambiguous);
   EXPECT_FALSE(open.names_causes());
   ASSERT_TRUE(open.likelier_missing.has_value());
-  EXPECT_EQ(open.likelier_missing->nothing, 0.23);
-  EXPECT_EQ(judged(0.0, 0.49).verdict, Verdict::ambiguous);
-  EXPECT_FALSE(judged(0.0, 0.51).likelier_missing.has_value());
+  EXPECT_EQ(open.likelier_missing->nothing, 0.02);
+  EXPECT_EQ(judged(0.0, 0.04).verdict, Verdict::ambiguous);
+  EXPECT_FALSE(judged(0.0, 0.06).likelier_missing.has_value());
 }
 
 TEST(Judge, OfWhatIsNotSignificantTheAnswerSaysBothAndTheirProbabilities) {
