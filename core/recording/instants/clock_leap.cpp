@@ -20,7 +20,7 @@ constexpr std::size_t fewest_rows_beside_leap = 6;
 constexpr double sidereal_day = 86164.1;  // [s]
 constexpr double straight = 1200.0;       // [s] over which a course is nearly its tangent: 5 deg
 constexpr double far = 40.0;              // of chi-square: odds of e^20
-constexpr double few_rows = 10.0;         // rows of unequal lengths show such leaps of their own
+constexpr double few_rows = 10.0;         // rows of unequal lengths show such leaps, and lost rows
 constexpr double late_row = 0.02;         // part of a row by which its instant may be off
 
 /// Of a course: its value, slope, bend and third power in the middle of the gap, and the step
@@ -107,12 +107,13 @@ std::vector<ClockLeap> clock_leaps(const Recording& r, const RowSpacing& spacing
   std::vector<ClockLeap> all;
   const Channel* time = r.find("time");
   if (time == nullptr || r.rows() < 2 * fewest_rows_beside_leap) return all;
+  std::size_t gaps = 0;
   for (std::size_t row = 1; row < r.rows(); ++row) {
     if (!spacing.gap(row)) continue;
+    ++gaps;
     const Around rows = rows_around(r, time->values, row);
     if (rows.end == rows.first) continue;
     const double seconds = spacing.step[row] - spacing.usual[row];
-    if (std::abs(seconds) < few_rows * spacing.usual[row]) continue;
     const double missing = std::clamp(std::remainder(seconds, sidereal_day), -straight, straight);
     double leap = 0.0, gap = 0.0, channels = 0.0;
     for (const auto* triple : {&accelerometer_channels, &gimbal_channels})
@@ -131,6 +132,10 @@ std::vector<ClockLeap> clock_leaps(const Recording& r, const RowSpacing& spacing
     const double most = channels * std::pow(1.0 - part + 4.75 * std::sqrt(part), 3);
     if (channels > 0.0 && leap < most && gap > leap + far) all.push_back({row, seconds});
   }
+  if (gaps > all.size())
+    std::erase_if(all, [&](const ClockLeap& leap) {
+      return leap.seconds < few_rows * spacing.usual[leap.row];
+    });
   return all;
 }
 
