@@ -59,12 +59,12 @@ std::vector<double> costs_around(const FitAtDelay& at, DelayDoubt::Of of, double
 }
 
 /// The delay of one kind of instrument, if the first parabola promises enough.
-std::optional<DelayDoubt> delay_of(DelayDoubt::Of of, const FitAtDelay& at, double interval,
-                                   double promise) {
+std::optional<DelayDoubt> delay_of(DelayDoubt::Of of, const FitAtDelay& at,
+                                   const EstimateResult& as_read, double interval, double promise) {
   const double h = part_of_interval * interval;
-  const std::vector<double> costs = costs_around(at, of, 0.0, h);
-  auto foot = foot_of(costs, h);
-  const EstimateResult as_read = at(of, 0.0);
+  const auto beside =
+      mc::run_campaign(2, [&](std::size_t k) { return at(of, k == 0 ? -h : h).statistic; });
+  auto foot = foot_of({beside[0], as_read.statistic, beside[1]}, h);
   const auto dof = static_cast<double>(std::max<std::size_t>(1, as_read.measured));
   if (!foot || foot->fall < promise * std::max(0.0, as_read.statistic - dof)) return std::nullopt;
   DelayDoubt out{.of = of, .late = foot->at, .sigma = foot->sigma, .interval = interval};
@@ -91,8 +91,10 @@ std::optional<DelayDoubt> delay_of_misfit(const FitAtDelay& at, double interval,
   if (!(interval > 0.0)) return std::nullopt;
   std::optional<DelayDoubt> best;
   try {
-    const auto of_accelerometers = delay_of(DelayDoubt::Of::accelerometers, at, interval, promise),
-               of_gimbals = delay_of(DelayDoubt::Of::gimbals, at, interval, promise);
+    using enum DelayDoubt::Of;
+    const EstimateResult as_read = at(accelerometers, 0.0);  // of either
+    const auto of_accelerometers = delay_of(accelerometers, at, as_read, interval, promise),
+               of_gimbals = delay_of(gimbals, at, as_read, interval, promise);
     best = of_gimbals ? of_gimbals : of_accelerometers;
     if (of_gimbals && of_accelerometers) {
       const double more = of_accelerometers->log_evidence - of_gimbals->log_evidence;

@@ -158,8 +158,9 @@ void doubt_study(const mc::Study& study, const std::vector<Recording>& recording
   };
   if (std::ranges::any_of(id.summaries, fits)) return;
   const FilterSummary& first = id.summaries.front();
-  if (const auto test = dwells_alone(study, recordings); test && misfit(result(first)))
-    id.delay = delay_of_misfit(*test, study.filters[first.filter], usual_interval(recorded));
+  if (misfit(result(first)))
+    if (const auto test = dwells_alone(study, recordings))
+      id.delay = delay_of_misfit(*test, study.filters[first.filter], usual_interval(recorded));
   if (id.delay && id.delay->alone()) return;
   for (FilterSummary& s : id.summaries) {
     const FilterSpec& filter = study.filters[s.filter];

@@ -116,14 +116,18 @@ class Course {
   bool any_ = false;
 };
 
-/// Angles without whole turns between two rows of a stretch.
-std::vector<double> unwrapped(std::vector<double> values, const EvenRows& s) {
+/// Angles without whole turns between two rows of a stretch; other readings as they are.
+std::vector<double> unwrapped(const Channel& c, const std::vector<EvenRows>& stretches) {
   constexpr double turn = 360.0 * detail::deg;
-  double before = nan_value;
-  for (std::size_t row = s.first; row < s.end; ++row) {
-    if (!std::isfinite(values[row])) continue;
-    if (std::isfinite(before)) values[row] = before + std::remainder(values[row] - before, turn);
-    before = values[row];
+  std::vector<double> values = c.values;
+  if (!c.name.starts_with("gimbal_")) return values;
+  for (const EvenRows& s : stretches) {
+    double before = nan_value;
+    for (std::size_t row = s.first; row < s.end; ++row) {
+      if (!std::isfinite(values[row])) continue;
+      if (std::isfinite(before)) values[row] = before + std::remainder(values[row] - before, turn);
+      before = values[row];
+    }
   }
   return values;
 }
@@ -137,10 +141,10 @@ void shift_readings(Recording& recording, std::span<const std::string_view> chan
   const std::vector<EvenRows> stretches = stretches_of(recording);
   for (Channel& c : recording.channels) {
     if (std::ranges::find(channels, c.name) == channels.end()) continue;
-    const bool angle = c.name.starts_with("gimbal_");
+    const std::vector<double> values = unwrapped(c, stretches);
     for (const EvenRows& s : stretches) {
       if (s.end - s.first < fewest) continue;
-      const Course course(time, angle ? unwrapped(c.values, s) : c.values, s);
+      const Course course(time, values, s);
       if (!course.any()) continue;
       for (std::size_t row = s.first; row < s.end; ++row)
         c.values[row] += course.at(time[row] + seconds) - course.at(time[row]);
@@ -157,11 +161,10 @@ double scatter_about_course(const Recording& recording,
     const Channel* c = recording.find(name);
     const std::vector<double>& weights =
         name.starts_with("gimbal_") ? recording.readings : recording.samples;
-    for (std::size_t k = 0; c != nullptr && k < stretches.size(); ++k) {
-      const EvenRows& s = stretches[k];
+    if (c == nullptr) continue;
+    const std::vector<double> values = unwrapped(*c, stretches);
+    for (const EvenRows& s : stretches) {
       if (s.end - s.first < fewest) continue;
-      const std::vector<double> values =
-          name.starts_with("gimbal_") ? unwrapped(c->values, s) : c->values;
       const Course course(time, values, s);
       if (!course.any()) continue;
       const auto n = static_cast<double>(s.end - s.first);
