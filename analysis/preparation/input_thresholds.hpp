@@ -15,7 +15,7 @@ namespace drift::preparation {
 struct RecordingLimits {
   /// A sensor that stands at one value for so many samples, and so many times as long as it usually
   /// does, is stuck. Tuned on a coarse readout, which repeats a value often.
-  /// Test: Prepare.TwentyEqualSamplesAreAStuckSensor
+  /// Test: StuckSensor.*
   static constexpr std::size_t stuck = 20;
   /// Expected number of runs of equal readings, of those that chance makes of a channel, that are
   /// taken for a stuck sensor: one channel of 10 000 recordings has one. Readings of normal noise

@@ -68,7 +68,7 @@ std::vector<diagnosis::ErrorOfKind> errors_of(const Diagnosis& d, const CaseIden
 
 void remark(Diagnosis& d, const CaseIdentification& id) {
   for (const std::string& text : id.study.remarks)
-    if (text != id.study.saturated) d.remarks.emplace_back(diagnosis::remark::Input{text});
+    d.remarks.emplace_back(diagnosis::remark::Input{text});
   if (!id.study.saturated.empty())
     d.remarks.insert(d.remarks.begin(), diagnosis::remark::SaturatedGyro{id.study.saturated});
   d.remarks.emplace_back(diagnosis::remark::NoDeclaredNoise{});

@@ -198,6 +198,12 @@ std::vector<Saturation> leave_out_not_measured(Recording& recording,
   return saturated;
 }
 
+std::vector<std::string> CaseStudy::all_remarks() const {
+  std::vector<std::string> all = remarks;
+  if (!saturated.empty()) all.insert(all.begin(), saturated);
+  return all;
+}
+
 CaseStudy case_study(const mc::Study& study, const Recording& given) {
   mc::require_own_terms(study);
   check_recording(given, RecordingKind::strapdown);
@@ -214,7 +220,6 @@ CaseStudy case_study(const mc::Study& study, const Recording& given) {
                      fmt::format("{}: {}", out.source,
                                  why_no_dwell(signals, study.static_min, out.search.longest_left)));
   out.saturated = saturation_text(saturated, recording, out.search.dwells);
-  if (!out.saturated.empty()) out.remarks.insert(out.remarks.begin(), out.saturated);
   require_live_accelerometers(out.search.dwells, out.source);
   if (const std::string wrong =
           preparation::accelerometers_in_another_unit(recording, resting_rows(out.search));

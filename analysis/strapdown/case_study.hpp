@@ -15,8 +15,9 @@ namespace drift::strapdown {
 struct CaseStudy {
   std::string source;
   std::vector<std::string> remarks;  ///< what of the recording is left out, or looks wrong
-  std::string saturated;    ///< of gyros at the end of their range, the first remark then; or ""
-  double static_min = 0.0;  ///< shortest dwell that counts [s]
+  std::string saturated;             ///< of gyros at the end of their range; or ""
+  double static_min = 0.0;           ///< shortest dwell that counts [s]
+  std::vector<std::string> all_remarks() const;  ///< what is said of saturation first
   DwellSearch search;
   Gyrocompass compass;
   CaseTest test;

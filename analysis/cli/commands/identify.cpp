@@ -26,7 +26,7 @@ ExitCode identify_case(const mc::Study& study, const std::vector<std::string>& p
                                  paths.size()));
   const auto recordings = read_recordings(study, paths);
   const strapdown::CaseIdentification id = strapdown::identify_case(study, recordings.front());
-  for (const std::string& remark : id.study.remarks) say("note: {}\n", remark);
+  for (const std::string& remark : id.study.all_remarks()) say("note: {}\n", remark);
   const report::Report said =
       with_provenance(report::case_report(study, id), report::provenance_of(study.path, paths));
   Rest rest{

@@ -102,7 +102,7 @@ json to_json(const CaseIdentification& id, double gravity) {
       {"schema", 1},
       {"kind", "strapdown"},
       {"recording", id.study.source},
-      {"remarks", id.study.remarks},
+      {"remarks", id.study.all_remarks()},
       {"dwells", dwells_json(id)},
       {"rotations",
        {{"count", id.study.test.ways.size()}, {"omitted", id.study.test.ways_with_gap}}},

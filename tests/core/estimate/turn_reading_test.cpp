@@ -8,6 +8,24 @@
 namespace drift::strapdown::turn_reading_test {
 namespace {
 
+/// What an even turn of so much about an axis reads of `f0`, by steps.
+Vec3 even_turn(double whole, const Vec3& axis, const Vec3& f0) {
+  Vec3 even = Vec3::Zero();
+  constexpr int steps = 1000;
+  for (int k = 0; k < steps; ++k)
+    even += rotation(Vec3(-whole * (k + 0.5) / steps * axis)) * f0 / steps;
+  return even;
+}
+
+/// Of a row of such a length that turns at 1 rad/s^2 from rest.
+void expect_row_of_even_turn(const TurnReading& read, double length, const Vec3& axis,
+                             const Vec3& f0, double gravity) {
+  EXPECT_LT((read.acc - even_turn(0.5 * length * length, axis, f0)).norm(), 2e-7);
+  EXPECT_LT((read.turn.rate - 0.5 * length * axis).norm(), 1e-12);
+  const Mat3 expected = (skew(axis) + length * length / 3.0 * skew(axis) * skew(axis)) / gravity;
+  EXPECT_LT((read.turn.arm - expected).norm(), 1e-5);
+}
+
 /// A row in which the rate changes reads as an even turn does; the acceleration is the change of
 /// the rate over the row.
 TEST(TurnReading, IsThatOfAnEvenTurn) {
@@ -22,16 +40,9 @@ TEST(TurnReading, IsThatOfAnEvenTurn) {
     s.acc.push_back(rotation(Vec3(-angle * axis)) * f0);
   }
   const TurnReading read = turn_reading(s, 0, 200, f0, gravity);
-  const double whole = 0.5 * length * length;
-  Vec3 even = Vec3::Zero();
-  constexpr int steps = 1000;
-  for (int k = 0; k < steps; ++k)
-    even += rotation(Vec3(-whole * (k + 0.5) / steps * axis)) * f0 / steps;
-  EXPECT_LT((read.acc - even).norm(), 2e-7);
-  EXPECT_GT((s.acc[100] - even).norm(), 1e-2);  // what the correction is of
-  EXPECT_LT((read.turn.rate - 0.5 * length * axis).norm(), 1e-12);
-  const Mat3 expected = (skew(axis) + length * length / 3.0 * skew(axis) * skew(axis)) / gravity;
-  EXPECT_LT((read.turn.arm - expected).norm(), 1e-5);
+  expect_row_of_even_turn(read, length, axis, f0, gravity);
+  // What the correction is of.
+  EXPECT_GT((s.acc[100] - even_turn(0.5 * length * length, axis, f0)).norm(), 1e-2);
 }
 
 /// The same of means over the samples, whose last ends with the row: of the rate, and of what the
@@ -50,15 +61,7 @@ TEST(TurnReading, OfMeansIsThatOfAnEvenTurn) {
     s.acc.push_back((force(t - dt) + 4.0 * force(t - 0.5 * dt) + force(t)) / 6.0);
   }
   const TurnReading read = turn_reading(s, 0, 40, f0, gravity);
-  const double whole = 0.5 * length * length;
-  Vec3 even = Vec3::Zero();
-  constexpr int steps = 1000;
-  for (int k = 0; k < steps; ++k)
-    even += rotation(Vec3(-whole * (k + 0.5) / steps * axis)) * f0 / steps;
-  EXPECT_LT((read.acc - even).norm(), 2e-7);
-  EXPECT_LT((read.turn.rate - 0.5 * length * axis).norm(), 1e-12);
-  const Mat3 expected = (skew(axis) + length * length / 3.0 * skew(axis) * skew(axis)) / gravity;
-  EXPECT_LT((read.turn.arm - expected).norm(), 1e-5);
+  expect_row_of_even_turn(read, length, axis, f0, gravity);
 }
 
 /// The axis z of a case goes round a cone of half-angle `half`, `turns` times a second, and the

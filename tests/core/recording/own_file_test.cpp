@@ -6,21 +6,12 @@
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/own/text_decoding.hpp"
 #include "recording_fixture.hpp"
+#include "recording_format_of.hpp"
 
 namespace drift::own_file_test {
 namespace {
 
 using namespace test;
-
-/// What [recording] says, read as a study file's section; the mistakes in it are thrown.
-RecordingFormat format_of(const std::string& text, RecordingKind kind = RecordingKind::strapdown) {
-  const config::Node root = config::parse_document(text, "study.toml");
-  config::Report report("study.toml");
-  const auto format = read_recording_format(
-      config::Section(report, &root, config::Place{}, "recording"), kind, {"z up", "x up"});
-  report.throw_if_wrong();
-  return format;
-}
 
 std::string mistake(const std::string& text, RecordingKind kind = RecordingKind::platform) {
   try {

@@ -8,21 +8,12 @@
 #include "core/recording/canonical_units.hpp"
 #include "core/recording/own/format_config.hpp"
 #include "recording_fixture.hpp"
+#include "recording_format_of.hpp"
 
 namespace drift::sample_kind_test {
 namespace {
 
 using namespace test;
-
-/// What [recording] says; the mistakes in it are thrown.
-RecordingFormat format_of(const std::string& text, RecordingKind kind = RecordingKind::strapdown) {
-  const config::Node root = config::parse_document(text, "study.toml");
-  config::Report report("study.toml");
-  const auto format = read_recording_format(
-      config::Section(report, &root, config::Place{}, "recording"), kind, {"z up"});
-  report.throw_if_wrong();
-  return format;
-}
 
 std::string mistake(const std::string& text, RecordingKind kind) {
   try {
