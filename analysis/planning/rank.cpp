@@ -152,8 +152,10 @@ void require_ranked(const mc::Study& study) {
   mc::require_own_terms(study);
   if (study.kind != RecordingKind::platform)
     throw InputError(ExitCode::config,
-                     fmt::format("{}: a strapdown recording has no plan to rank (expected kind = "
-                                 "\"platform\"). Give [plan] a preset or positions",
+                     fmt::format("{}: plans are ranked of platforms; [plan] has kind = "
+                                 "\"strapdown\". What turns of a case would tell, the sigmas of "
+                                 "`driftscope identify` say of a recording of them, a trial run or "
+                                 "a simulated one",
                                  study.path));
   if (study.filters.empty())
     throw InputError(ExitCode::config,

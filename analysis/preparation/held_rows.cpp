@@ -143,20 +143,23 @@ std::vector<StuckRows> stuck_rows(const Recording& r) {
 void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
   const std::vector<StuckRows> stuck = stuck_rows(r);
   for (Channel& c : r.channels) {
-    std::size_t lost = 0, line = 0;
+    std::size_t lost = 0, line = 0, places = 0;
     for (const StuckRows& rows : stuck) {
       if (rows.channel != c.name) continue;
       if (lost == 0) line = r.lines[rows.first];
       lost += rows.end - rows.first;
+      ++places;
       std::fill(c.values.begin() + static_cast<std::ptrdiff_t>(rows.first),
                 c.values.begin() + static_cast<std::ptrdiff_t>(rows.end),
                 std::numeric_limits<double>::quiet_NaN());
     }
     if (lost > 0)
-      remarks.push_back(fmt::format(
-          "{}: {} stands still for {} samples, from line {} on: taken as a stuck sensor, or one at "
-          "the end of its range, and left out",
-          r.source.empty() ? "recording" : r.source, c.name, lost, line));
+      remarks.push_back(
+          fmt::format("{}: {} stands still for {} samples{}, from line {} on: taken as a stuck "
+                      "sensor, or one at "
+                      "the end of its range, and left out",
+                      r.source.empty() ? "recording" : r.source, c.name, lost,
+                      places > 1 ? fmt::format(" in {} places together", places) : "", line));
   }
 }
 

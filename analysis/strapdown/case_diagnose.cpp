@@ -76,6 +76,14 @@ void remark(Diagnosis& d, const CaseIdentification& id) {
     d.remarks.emplace_back(diagnosis::remark::NotObservable{u.what, u.reason});
 }
 
+/// The room that what was found has in the priors of the nominal model, for the patched study.
+void take_room(Diagnosis& d, const FilterSpec& as_fitted) {
+  const auto* beyond = diagnosis::remark_in<diagnosis::remark::BeyondPrior>(d);
+  if (beyond == nullptr || !beyond->taken) return;
+  for (const auto& p : beyond->parameters)
+    d.patched.priors[p.estimate.param] = as_fitted.priors[p.estimate.param];
+}
+
 /// Another latitude against what was found; where causes leave nothing and it does not, it is none.
 void take_latitude(Diagnosis& d, const CaseIdentification& id) {
   if (!id.latitude) return;
@@ -122,7 +130,9 @@ Diagnosis diagnose_case(const mc::Study& study, const CaseIdentification& id,
   for (search::Cause& c : d.causes)
     if (closure(c)) c.parameters.clear();
   const bool other_equation = std::erase_if(effects, closure) > 0;
+  const FilterSpec as_fitted = std::move(d.patched);
   d.patched = diagnosis::patched_filter(nominal, effects, d.nominal);
+  take_room(d, as_fitted);
   if (other_equation) d.patched.coupling = facts(nominal.coupling).other.value_or(nominal.coupling);
   take_latitude(d, id);
   take_times(d, id, nominal);

@@ -19,7 +19,26 @@ struct Stay {
   Vec3 rest_rate = Vec3::Zero();      ///< mean rate that the model reads out of the gyros [rad/s]
 };
 
-std::vector<Stay> stays_of(const CaseTest& test, const Measurements& predicted) {
+/// What the accelerometers read with what SpecificForce does not know (temperatures, lever arms, a
+/// ramp) taken out [g]: of the model, at the attitude that it has.
+Mat3X read_without_others(const CaseTest& test, const DriftModel& model, const Theta& theta,
+                          const std::vector<Vec3>& psi0_l, const Measurements& predicted) {
+  Theta known = theta;
+  bool others = false;
+  for (std::size_t t = 0; t < TermLibrary::num_terms; ++t) {
+    const TermInfo& term = TermLibrary::terms[t];
+    if (!model.terms[t] || !term.in_readout || term.in_rates || term.in_offset ||
+        term.key == terms::Accelerometer::key)
+      continue;
+    others = true;
+    std::fill_n(known.data() + term.first, term.count, 0.0);
+  }
+  if (!others) return test.measured.acc;
+  const Measurements without = predict(test.timeline, model, known, psi0_l, test.readout);
+  return test.measured.acc - (predicted.acc - without.acc);
+}
+
+std::vector<Stay> stays_of(const CaseTest& test, const Measurements& predicted, const Mat3X& acc) {
   std::vector<Stay> stays(static_cast<std::size_t>(test.timeline.positions));
   for (std::size_t i = 0; i < test.timeline.intervals.size(); ++i) {
     const Interval& interval = test.timeline.intervals[i];
@@ -28,11 +47,11 @@ std::vector<Stay> stays_of(const CaseTest& test, const Measurements& predicted) 
     Stay& stay = stays[static_cast<std::size_t>(interval.position)];
     if (stay.end == 0) {
       stay.first = i;
-      stay.at_start = test.measured.acc.col(column);
+      stay.at_start = acc.col(column);
     }
     stay.end = i + 1;
-    stay.at_end = test.measured.acc.col(column);
-    stay.acc += test.measured.acc.col(column);
+    stay.at_end = acc.col(column);
+    stay.acc += acc.col(column);
     if (interval.rest) stay.rest_rate += predicted.gimbal.col(column);
   }
   for (std::size_t d = 0; d < stays.size(); ++d) {
@@ -52,7 +71,8 @@ CaseErrors case_errors(const CaseTest& test, const DriftModel& model, const Thet
   const Timeline& timeline = test.timeline;
   Trajectory phi;
   const Measurements predicted = predict(timeline, model, theta, psi0_l, test.readout, &phi);
-  const std::vector<Stay> stays = stays_of(test, predicted);
+  const std::vector<Stay> stays =
+      stays_of(test, predicted, read_without_others(test, model, theta, psi0_l, predicted));
   const SpecificForce force(theta);
   MemoryRecord memory(timeline, model);
   memory.trace(theta.data());

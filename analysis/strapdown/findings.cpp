@@ -31,10 +31,6 @@ std::string key_of_param(std::size_t param) {
   return std::string(TermLibrary::specs[param].key.view());
 }
 
-bool is_input_axis_drift(std::size_t param) {
-  return TermLibrary::specs[param].group.view() == "D_I";
-}
-
 /// Whether the model has something that follows the temperature.
 bool follows_temperature(const EstimateResult& e) {
   return std::ranges::any_of(TermLibrary::terms, [&](const TermInfo& term) {
@@ -62,6 +58,10 @@ std::vector<Unobservable> hidden_with_the_earth() {
 }
 
 }  // namespace
+
+bool is_input_axis_drift(std::size_t param) {
+  return TermLibrary::specs[param].group.view() == "D_I";
+}
 
 EstimateResult without_common_drift(EstimateResult e) {
   std::vector<std::size_t> of_input_axis;

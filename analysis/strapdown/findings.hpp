@@ -38,6 +38,9 @@ enum class EarthRate { seen, hidden };
 /// as_sensed() has it.
 Findings findings_of(const EstimateResult& sensed, EarthRate earth);
 
+/// Whether it is D_I_x, D_I_y or D_I_z.
+bool is_input_axis_drift(std::size_t param);
+
 /// D_I_x, D_I_y and D_I_z less their mean, covariance included; as they are without one of them.
 EstimateResult without_common_drift(EstimateResult estimate);
 

@@ -89,20 +89,41 @@ std::vector<Mending> mendings(const std::vector<double>& declared, const ErrorsA
   return all;
 }
 
-/// Keeps those that give the Earth's rate the sign that it has at the site, where any do. Whether
-/// that rules others out.
-bool keep_those_of_site(std::vector<Mending>& all, const Site& site,
-                        const std::vector<Dwell>& dwells) {
+/// What the Earth's rate at the site says of several changes.
+enum class BySite { nothing, some_are_mirrored, all_are_mirrored };
+
+/// Keeps those that give the Earth's rate the sign that it has at the site, where any do.
+BySite keep_those_of_site(std::vector<Mending>& all, const Site& site,
+                          const std::vector<Dwell>& dwells) {
   std::vector<Mending> right;
-  bool mirrored = false;
+  std::size_t mirrored = 0;
   for (const Mending& m : all) {
     const std::optional<bool> as_there = earth_as_at(site, dwells, m.as);
     if (as_there && *as_there) right.push_back(m);
-    mirrored = mirrored || (as_there && !*as_there);
+    if (as_there && !*as_there) ++mirrored;
   }
-  if (right.empty()) return false;
+  if (right.empty())
+    return mirrored > 0 && mirrored == all.size() ? BySite::all_are_mirrored : BySite::nothing;
   all = std::move(right);
-  return mirrored;
+  return mirrored > 0 ? BySite::some_are_mirrored : BySite::nothing;
+}
+
+/// What mends left-handed axes, where it leaves no more turns than the changes of one triad do and
+/// has the Earth's rate as it is at the site; or "". Which axis is reversed is one: right-handed
+/// triads differ by a rotation.
+std::string left_handed(const std::vector<Mending>& mirrored, const Site& site,
+                        const std::vector<Dwell>& dwells, const ErrorsAs& errors_as) {
+  const Mixup z_reversed{.sign = {1.0, 1.0, -1.0}};
+  const ColumnsAs as{z_reversed, z_reversed};
+  if (mirrored.empty() || wrong_of(errors_as(as)) > mirrored.front().left ||
+      !earth_as_at(site, dwells, as).value_or(false))
+    return "";
+  return "the axes are left-handed: with one of them reversed in gyros and accelerometers alike "
+         "gravity turns as the gyros do and the Earth turns as at the latitude of the study. "
+         "Correct "
+         "the recording, or say so in the study: [recording] columns = { gyro_z = \"-gyro_z\", "
+         "acc_z "
+         "= \"-acc_z\" }, each with its unit as in the header";
 }
 
 /// The one with the fewest changes, of gyros or of accelerometers; none if several are.
@@ -132,7 +153,11 @@ std::string mistaken_columns(const std::vector<Dwell>& dwells, const Site& site,
     return mends ? text_of(all_reversed(), true) : "";
   }
   std::vector<Mending> all = mendings(declared, errors_as);
-  const bool by_earth = keep_those_of_site(all, site, dwells);
+  const BySite by_site = keep_those_of_site(all, site, dwells);
+  if (by_site == BySite::all_are_mirrored)
+    if (const std::string said = left_handed(all, site, dwells, errors_as); !said.empty())
+      return said;
+  const bool by_earth = by_site == BySite::some_are_mirrored;
   const auto gyros = plainest(all, true), forces = plainest(all, false);
   if (!gyros && !forces) return "";
   const std::string said_of_site = fmt::format(

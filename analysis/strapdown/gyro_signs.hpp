@@ -28,7 +28,8 @@ using ErrorsAs = std::function<std::vector<double>(const ColumnsAs&)>;
 /// of the other where det(M) is -1, and is told by the Earth's rate at rest: w f is that about Up,
 /// and turns its sign. Where the rests show it (MirrorLimits) only what gives it the sign that it
 /// has at the site's latitude counts. What mends gyros and what mends accelerometers are both
-/// said, the one with fewer changes first.
+/// said, the one with fewer changes first. Where that leaves none, the axes are left-handed: one of
+/// gyros and accelerometers alike.
 std::string mistaken_columns(const std::vector<Dwell>& dwells, const Site& site,
                              const std::vector<double>& declared, const ErrorsAs& errors_as);
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/strapdown/findings.hpp"
 #include "analysis/strapdown/sensed.hpp"
 
 namespace drift::strapdown {
@@ -94,6 +95,25 @@ void take_out(Profile& p, double mean) {
   p.less_mean = true;
 }
 
+/// Of the three of the nominal model, where all moved: each fit has a mean of its own.
+bool take_out_of_shifted(std::vector<diagnosis::ShiftedParameter>& shifted) {
+  double count = 0.0, before = 0.0, after = 0.0;
+  for (const diagnosis::ShiftedParameter& p : shifted)
+    if (is_input_axis_drift(p.param)) {
+      count += 1.0;
+      before += p.before;
+      after += p.after;
+    }
+  if (count < 3.0) return false;
+  for (diagnosis::ShiftedParameter& p : shifted)
+    if (is_input_axis_drift(p.param)) {
+      p.before -= before / count;
+      p.after -= after / count;
+      p.shift_sigma = (p.after - p.before) / p.sigma_before;
+    }
+  return true;
+}
+
 }  // namespace
 
 void sense(Diagnosis& d, const EstimateResult& platform) {
@@ -117,8 +137,8 @@ void take_common_drift_out(Diagnosis& d) {
   std::map<int, std::vector<CauseParameter*>> of_input_axis;
   for (search::Cause& cause : d.causes)
     for (CauseParameter& p : cause.parameters)
-      if (TermLibrary::specs[p.param].group.view() == "D_I") of_input_axis[cause.set].push_back(&p);
-  bool taken = false;
+      if (is_input_axis_drift(p.param)) of_input_axis[cause.set].push_back(&p);
+  bool taken = take_out_of_shifted(d.fit.shifted);
   for (const auto& [set, parameters] : of_input_axis) {
     if (parameters.size() < 3) continue;
     double mean = 0.0;

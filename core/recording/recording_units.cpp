@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/recording/own/recording_unit.hpp"
 #include "core/recording/recording_channels.hpp"
+#include "core/recording/rows/repeated_rows.hpp"
 #include "core/recording/sample_kind.hpp"
 #include "core/stats/median.hpp"
 
@@ -38,6 +40,21 @@ Unit carried_plain(RawColumn& column, std::string_view why, WeighedTexts& remark
                           of_terms ? fmt::format(", as {}, which no term uses", column.name)
                                    : std::string()));
   return unit::one;
+}
+
+/// The last digit of times [s]: where so many digits are written, and not so many places, that of
+/// the largest times.
+double last_digit(const Channel& time) {
+  constexpr std::size_t enough = 100;  // of times of one size: a few may all end in zeros
+  std::map<double, Channel> of_size;
+  for (const double t : time.values)
+    if (std::isfinite(t) && t != 0.0)
+      of_size.try_emplace(std::floor(std::log10(std::abs(t))), Channel{time.name, time.unit, {}})
+          .first->second.values.push_back(t);
+  double coarsest = decimal_step(time);
+  for (const auto& [size, channel] : of_size)
+    if (channel.values.size() >= enough) coarsest = std::max(coarsest, decimal_step(channel));
+  return coarsest;
 }
 
 }  // namespace
@@ -122,8 +139,21 @@ void make_rates(Recording& recording, double gravity) {
     steps.push_back(time->values[i] - time->values[i - 1]);
   const double usual = stats::upper_median(steps);
   if (!(usual > 0.0)) return;
+  // Times of few digits make even rows seem uneven: what such a row gained is divided by what all
+  // of them took on average. By its own each reading of coarse counts would differ from the others,
+  // but for zeros.
+  const double rounding = std::min(1.001 * last_digit(*time), 0.25 * usual);
+  const auto even = [&](double step) { return std::abs(step - usual) <= rounding; };
+  double sum = 0.0, count = 0.0;
+  for (const double step : steps)
+    if (even(step)) {
+      sum += step;
+      count += 1.0;
+    }
+  const double mean = sum / count;
   const auto length = [&](std::size_t row) {
-    return row == 0 ? usual : sampled_over(steps[row - 1], usual);
+    if (row == 0 || even(steps[row - 1])) return mean;
+    return sampled_over(steps[row - 1], usual);
   };
   for (Channel& c : recording.channels) {
     const bool gyro = c.name.starts_with("gyro_") && c.unit.dim == unit::rad.dim;

@@ -112,7 +112,8 @@ ExitCode diagnose(const StudyArguments& arguments, const std::vector<std::string
     throw InputError(ExitCode::usage,
                      "--advise: a strapdown study has no positions to add (expected a platform "
                      "study). Leave it out; "
-                     "more turns about more axes are what helps");
+                     "more turns about more axes are what helps, and the sigmas of `driftscope "
+                     "identify` of a trial run say how much");
   if (!folder.empty()) require_one_task("Start it once");
   require_results_folder({folder, "diagnose"}, with(paths, study.path));
   return study.kind == RecordingKind::strapdown

@@ -27,7 +27,7 @@ ExitCode simulate(const StudyArguments& arguments, const std::string& output, st
   if (study.kind == RecordingKind::strapdown)
     throw InputError(ExitCode::config,
                      fmt::format("{}: simulate makes recordings of platforms; [plan] has kind "
-                                 "= \"strapdown\". Give a platform plan",
+                                 "= \"strapdown\". Give a study of a platform",
                                  study.path));
   if (!study.has_truth)
     throw InputError(

@@ -16,7 +16,7 @@ std::string_view title_of(StudyKind kind) {
     case StudyKind::platform:
       return "parameters of a gimballed platform, from its recordings";
     case StudyKind::strapdown:
-      return "sensors on a case that is turned by hand between rests";
+      return "sensors on a case that is turned between rests";
     case StudyKind::study:
       return "how well eqs. (5) and (6) estimate what is simulated with eq. (5)";
     case StudyKind::sweep:
@@ -175,9 +175,14 @@ std::string study_template(StudyKind kind, const std::optional<RecordedPlan>& pl
                                                            plan ? "  # likewise: check" : ""));
   if (!mapping.empty()) text += "\n" + mapping;
   if (kind == StudyKind::study || kind == StudyKind::sweep) text += simulated_text();
-  // Accelerometers of a real platform have errors of their own, beside which any other hides.
+  // Accelerometers of a real unit have errors of their own, beside which any other hides; so have
+  // the scale factors of gyros on a case that turns.
   const bool real = kind == StudyKind::platform || kind == StudyKind::diagnose;
-  const std::string_view more = real ? ", \"accelerometer\"" : "";
+  const std::string_view more =
+      real ? ", \"accelerometer\""
+      : kind == StudyKind::strapdown
+          ? ", \"torquer_scale\",\n            \"K0\", \"K1\", \"dP\", \"dO\""
+          : "";
   if (kind == StudyKind::diagnose) {
     // A filter on the wrong one may fit, with wrong values.
     text += filter_text("nominal", "eq5", more,

@@ -16,6 +16,8 @@ namespace {
 struct Rests {
   MatX N;
   VecX right;
+  double squares = 0.0;  ///< of what was read, weighted
+  double readings = 0.0;
   Eigen::Index up() const { return N.rows() - 1; }
 
   /// With the rate about Up as given [rad/s].
@@ -27,6 +29,16 @@ struct Rests {
     const Cholesky llt(N.topLeftCorner(up(), up()));
     return {llt.solve(VecX(right.head(up()) - N.col(up()).head(up()) * rate_up)),
             llt.solve(MatX(MatX::Identity(up(), up())))};
+  }
+  /// Chi-square per degree of freedom of what is left, and 1 at least: gyros that read at rest what
+  /// is neither the Earth nor a fixed drift (g-sensitivity, a drift that walks) tell of the Earth
+  /// less than their noise says.
+  double misfit(const Solution& found, double rate_up) const {
+    VecX all(N.rows());
+    all << found.x, rate_up;
+    const double chi2 = squares - 2.0 * all.dot(right) + all.dot(N * all),
+                 dof = readings + 3.0 - static_cast<double>(up());  // three priors of the drift
+    return dof > 0.0 ? std::max(1.0, chi2 / dof) : 1.0;
   }
 };
 
@@ -45,6 +57,8 @@ Rests rests_of(const CaseTest& test, double sigma_drift) {
     J.col(sums.up()) = R_pl.col(2);
     sums.N += weight * J.transpose() * J;
     sums.right += weight * J.transpose() * i.omega_cmd_p;
+    sums.squares += weight * i.omega_cmd_p.squaredNorm();
+    sums.readings += 3.0;
   }
   return sums;
 }
@@ -93,15 +107,17 @@ Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed
   const Timeline& timeline = test.timeline;
   const Vec3 omega_ie_l = timeline.site.omega_ie_l();
   const double horizontal = omega_ie_l.head<2>().norm();
-  const auto solved = [&](double prior) { return rests_of(test, prior).solved(omega_ie_l[2]); };
   constexpr double none = 1000.0;  // times wider a prior says nothing, and equations stay sound
-  const Rests::Solution found = solved(sigma_drift), without_prior = solved(none * sigma_drift);
+  const Rests rests = rests_of(test, sigma_drift);
+  const Rests::Solution found = rests.solved(omega_ie_l[2]),
+                        without_prior = rests_of(test, none * sigma_drift).solved(omega_ie_l[2]);
+  const double misfit = rests.misfit(found, omega_ie_l[2]);
   Gyrocompass out;
   out.sees_earth = horizontal > 0.0;
   out.sigma = 0.0;
   for (Eigen::Index c = 0; c < timeline.chains; ++c) {
     const Eigen::Vector2d north = found.x.segment<2>(2 * c);
-    const double sigma = std::sqrt(found.P.block<2, 2>(2 * c, 2 * c).trace() / 2.0);
+    const double sigma = std::sqrt(misfit * found.P.block<2, 2>(2 * c, 2 * c).trace() / 2.0);
     out.azimuth.push_back(azimuth_of(north, assumed_azimuth, c));
     out.sigma = std::max(out.sigma, sigma / horizontal);
     if (std::abs(north.norm() - horizontal) > 3.0 * sigma + 0.1 * horizontal ||

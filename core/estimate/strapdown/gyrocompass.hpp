@@ -27,7 +27,8 @@ AxisHeading axis_heading(const Vec3& acc, double azimuth);
 /// horizontal rate of each chain (two numbers; the vertical is the latitude's) and the drift, with
 /// the prior `sigma_drift` of each axis [rad/s]. Attitudes are those of the laid out test.
 /// The Earth is seen where its rate is found within what the site says, and the azimuth to 0.3 rad,
-/// unless it takes a prior of the drift that the drift contradicts.
+/// unless it takes a prior of the drift that the drift contradicts. Sigmas are those of the noise
+/// times the root of chi-square per degree of freedom of the dwells (1 at least).
 Gyrocompass gyrocompass(const CaseTest& test, const std::vector<double>& assumed_azimuth,
                         double sigma_drift);
 

@@ -133,6 +133,18 @@ TEST(GyroSigns, AnOddNumberOfReversedGyrosIsOfGyrosAlone) {
   }
 }
 
+/// No change of one triad makes right-handed axes of left-handed ones.
+TEST(GyroSigns, OfLeftHandedAxesOneIsReversedInBoth) {
+  const Recording right = made(EarthRate::seen);
+  for (const Names names : {Names{"gyro_z", "acc_z"}, Names{"gyro_y", "acc_y"}}) {
+    const Recording wrong = reversed(right, names);
+    const std::string said = refusal(wrong);
+    EXPECT_NE(said.find("the axes are left-handed"), std::string::npos) << said;
+    EXPECT_NE(said.find(line({"gyro_z", "acc_z"})), std::string::npos) << said;
+    EXPECT_EQ(refusal(reversed(wrong, {"gyro_z", "acc_z"})), "");
+  }
+}
+
 /// A median alone takes all gyros for reversed where the turns about one axis stay wrong.
 TEST(GyroSigns, AllGyrosAreReversedOnlyWhereNoTurnStaysWrong) {
   const std::vector<Dwell> none;

@@ -124,6 +124,23 @@ TEST(SensedDiagnosis, TheCommonDriftGoesOutOfIntervalsAndProfilesOfItsSetAlone) 
   EXPECT_NE(diagnosis::remark_in<diagnosis::remark::CommonDriftUnseen>(d), nullptr);
 }
 
+TEST(SensedDiagnosis, TheCommonDriftGoesOutOfParametersThatMovedOfEachFitItsOwn) {
+  Diagnosis d;
+  for (const auto& [key, before, after] : {std::tuple{"D_I_x", 10.0, 31.0},
+                                           {"D_F_x", 5.0, 6.0},
+                                           {"D_I_y", 20.0, 40.0},
+                                           {"D_I_z", 60.0, 97.0}})
+    d.fit.shifted.push_back(
+        {key, "deg/h/g", *TermLibrary::find(key), before, 2.0, after, 0.5, 0.0});
+  take_common_drift_out(d);
+  EXPECT_NEAR(d.fit.shifted[0].before, -20.0, 1e-12);
+  EXPECT_NEAR(d.fit.shifted[0].after, -25.0, 1e-12);
+  EXPECT_NEAR(d.fit.shifted[0].shift_sigma, -2.5, 1e-12);
+  EXPECT_NEAR(d.fit.shifted[3].after, 41.0, 1e-12);
+  EXPECT_EQ(d.fit.shifted[1].after, 6.0);
+  EXPECT_NE(diagnosis::remark_in<diagnosis::remark::CommonDriftUnseen>(d), nullptr);
+}
+
 TEST(SensedDiagnosis, OfAConsumersUnitAFoundSizeWidensAConsumersPriorAndNoNarrowerOne) {
   const std::size_t s_a = *TermLibrary::find("s_a_x");
   const double ppm = TermLibrary::specs[s_a].unit.to_si, usual = consumer_prior(s_a).sigma();

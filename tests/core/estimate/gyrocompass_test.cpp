@@ -55,6 +55,33 @@ TEST(Gyrocompass, ADriftBeyondItsPriorThatTheRestsKnowHidesNoEarth) {
   EXPECT_TRUE(u.compass.sees_earth);
 }
 
+TEST(Gyrocompass, RestsThatReadWhatIsNeitherEarthNorDriftShowNoNorth) {
+  // g-sensitivity of 100 deg/h/g under a prior that has room for any drift: in a few units what it
+  // adds happens to be as much as the Earth's rate, and noise is not what North is as uncertain as.
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    test::StrapdownScript consumer = script(seed);
+    consumer.dwells = 26;
+    consumer.rest = 4.0;
+    consumer.turn = 2.0;
+    consumer.gyro_noise = 5e-4;
+    Theta theta = sensors();
+    set(theta, "D_F_x", 2000.0);
+    for (const auto& [key, value] : {std::pair{"D_I_x", 60.0},
+                                     {"D_I_y", -90.0},
+                                     {"D_I_z", 120.0},
+                                     {"D_O_x", 100.0},
+                                     {"D_O_y", 70.0},
+                                     {"D_O_z", -80.0},
+                                     {"D_S_x", -110.0},
+                                     {"D_S_y", 90.0},
+                                     {"D_S_z", 60.0}})
+      set(theta, key, value);
+    const Signals signals = signals_of(strapdown_recording(consumer, theta));
+    const CaseTest t = lay_out_case(signals, find_dwells(signals, {}).dwells, site, Carry::through);
+    EXPECT_FALSE(gyrocompass(t, {}, 3600.0 * unit::deg_per_h.to_si).sees_earth) << seed;
+  }
+}
+
 TEST(Gyrocompass, AnAxisPointsFromNorthToEast) {
   // Level, turned by 0.5 from North to West: x is 0.5 to the West of North.
   AxisHeading heading = axis_heading(Vec3(0.0, 0.0, 1.0), 0.5);

@@ -7,6 +7,7 @@
 #include "core/estimate/strapdown/signals.hpp"
 #include "core/recording/canonical_units.hpp"
 #include "core/recording/own/format_config.hpp"
+#include "core/recording/rows/reading_step.hpp"
 #include "recording_fixture.hpp"
 #include "recording_format_of.hpp"
 
@@ -57,6 +58,35 @@ TEST(SampleKinds, IncrementsAreMeansTimesTheirInterval) {
   const Recording r = read(folder.write("increments.csv", increments), "kind = \"increments\"\n");
   EXPECT_TRUE(holds_mean_rates(r));
   EXPECT_NEAR(r.find("gyro_z")->values[2], -6.0 * detail::deg, 1e-15);
+}
+
+/// At 128 Hz times of four places are 0.0078 or 0.0079 s apart; of nine digits those of the first
+/// seconds are exact. Counts stay counts, and what they add up to stays it.
+TEST(SampleKinds, CountsOfEvenRowsStayCountsWhereTimesAreRounded) {
+  const Folder folder;
+  for (const bool places : {true, false}) {
+    std::string rows =
+        "time [s],gyro_x [arcsec],gyro_y [arcsec],gyro_z [arcsec],acc_x [m/s],acc_y [m/s],acc_z "
+        "[m/s]\n";
+    constexpr std::size_t n = 20000;
+    double whole = 0.0;  // [arcsec]
+    for (std::size_t k = 1; k <= n; ++k) {
+      const double gained = 0.4 * static_cast<double>(k * 7919 % 5 < 2 ? 1 : 0);
+      if (k > 1) whole += gained;
+      const double t = static_cast<double>(k) / 128.0;
+      rows += (places ? fmt::format("{:.4f}", t) : fmt::format("{:.9g}", t)) +
+              fmt::format(",{:.1f},0,0,0,0,0.0766\n", gained);
+    }
+    const Recording r = read(folder.write("counts.csv", rows), "kind = \"increments\"\n");
+    const Channel& gyro = *r.find("gyro_x");
+    ASSERT_TRUE(reading_step(gyro, nullptr)) << places;
+    EXPECT_NEAR(*reading_step(gyro, nullptr), 0.4 * unit::arcsec.to_si * 128.0, 1e-8);
+    const std::vector<double>& time = r.find("time")->values;
+    double sum = 0.0;
+    for (std::size_t k = 1; k < n; ++k) sum += gyro.values[k] * (time[k] - time[k - 1]);
+    // A rounding of the times, 1e-4 s at most, for every change of the rate, and their mean.
+    EXPECT_NEAR(sum / unit::arcsec.to_si / whole, 1.0, 1e-3) << places;
+  }
 }
 
 /// As `convert` writes it: what is read again needs no line in the study.

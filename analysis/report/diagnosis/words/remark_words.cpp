@@ -168,8 +168,11 @@ struct Words {
 
   std::string operator()(const BeyondPrior& r) const {
     return beyond_prior_text(r) +
-           ". If that is not this unit, the study is not of this recording: check [site] latitude, "
-           "axes and commands of the plan, and the priors";
+           ". If that is not this unit, the study is not of this recording: check [site] "
+           "latitude, " +
+           (instrument == Instrument::on_case ? "the axes of the sensors"
+                                              : "axes and commands of the plan") +
+           ", and the priors";
   }
 
   std::string operator()(const OtherPriors& r) const {
