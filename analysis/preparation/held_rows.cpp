@@ -156,8 +156,7 @@ void leave_out_stuck(Recording& r, std::vector<std::string>& remarks) {
     if (lost > 0)
       remarks.push_back(
           fmt::format("{}: {} stands still for {} samples{}, from line {} on: taken as a stuck "
-                      "sensor, or one at "
-                      "the end of its range, and left out",
+                      "sensor, or one at the end of its range, and left out",
                       r.source.empty() ? "recording" : r.source, c.name, lost,
                       places > 1 ? fmt::format(" in {} places together", places) : "", line));
   }

@@ -120,10 +120,8 @@ std::string left_handed(const std::vector<Mending>& mirrored, const Site& site,
     return "";
   return "the axes are left-handed: with one of them reversed in gyros and accelerometers alike "
          "gravity turns as the gyros do and the Earth turns as at the latitude of the study. "
-         "Correct "
-         "the recording, or say so in the study: [recording] columns = { gyro_z = \"-gyro_z\", "
-         "acc_z "
-         "= \"-acc_z\" }, each with its unit as in the header";
+         "Correct the recording, or say so in the study: [recording] columns = { gyro_z = "
+         "\"-gyro_z\", acc_z = \"-acc_z\" }, each with its unit as in the header";
 }
 
 /// The one with the fewest changes, of gyros or of accelerometers; none if several are.
